@@ -1,0 +1,17 @@
+//! Bit-exact model of the stereoscopic affine mapping (SAM) pipeline.
+//!
+//! The rules of the pipeline, the number formats and the streams are on the page
+//! `ARCHITECTURE.md`; every model here has the name of the Verilog module it mirrors.
+//!
+//! Without the default feature `std` the crate is `no_std`: what remains is what firmware
+//! runs on a board, the formats and the polygon setup.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate alloc;
+
+pub mod config;
+pub mod formats;
+#[cfg(feature = "std")]
+pub mod interface;
+#[cfg(feature = "std")]
+pub mod pipeline;

@@ -1,0 +1,5 @@
+//! Models of the hardware units, one module a unit, and of the two systems made of them.
+
+mod streams;
+
+pub use streams::*;

@@ -1,0 +1,1 @@
+//! Co-simulation: Verilator models driven from Rust.

@@ -1,0 +1,1 @@
+//! Shared helpers of the tests; the tests themselves are the files beside this one.
