@@ -15,3 +15,6 @@ pub mod formats;
 pub mod interface;
 #[cfg(feature = "std")]
 pub mod pipeline;
+pub mod setup;
+#[cfg(feature = "std")]
+pub mod texture;

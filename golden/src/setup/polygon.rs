@@ -1,0 +1,61 @@
+//! What setup is given: projected, snapped vertices.
+
+use crate::formats::{Eye, Rgba};
+use alloc::vec::Vec;
+
+/// Most vertices of a polygon: three edges of the primary pipeline and three lent ones.
+pub const MAX_VERTICES: usize = 6;
+
+/// A vertex as both eyes see it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Vertex {
+    /// x for the left and the right eye, in subpixels.
+    pub x: [i32; 2],
+    /// y, common to both eyes, in subpixels.
+    pub y: i32,
+    /// Depth, 24 bits, 0 at the near plane; common to both eyes.
+    pub depth: u32,
+    /// Lit colour for the left and the right eye, alpha not applied.
+    pub colour: [Rgba; 2],
+    /// Texture coordinates in texels, 8 fraction bits.
+    pub texel: [i32; 2],
+    /// Inverse distance from the eye plane, 2^24 at the polygon's nearest vertex.
+    pub inverse: u32,
+}
+
+/// A polygon to draw: a triangle, or a convex polygon of up to six vertices for monocular drawing.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Polygon {
+    /// The vertices, in either winding.
+    pub vertices: Vec<Vertex>,
+    /// Index of the triangle or face in its scene; lower ones win ties of depth.
+    pub id: u32,
+    /// Eyes that the polygon is to be drawn for.
+    pub eyes: Eyes,
+    /// Index of the texture, if there is one.
+    pub texture: Option<u32>,
+    /// Highlights or reflections differ noticeably between the eyes.
+    pub specular: bool,
+    /// The polygon had to be clipped against the guard band, for each eye alone.
+    pub guard_band: bool,
+}
+
+/// A set of eyes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Eyes {
+    /// Both.
+    #[default]
+    Both,
+    /// Only this one.
+    One(Eye),
+}
+
+impl Eyes {
+    /// Whether the eye is in the set.
+    pub fn contains(self, eye: Eye) -> bool {
+        match self {
+            Eyes::Both => true,
+            Eyes::One(one) => one == eye,
+        }
+    }
+}
