@@ -14,7 +14,11 @@ pub mod formats;
 #[cfg(feature = "std")]
 pub mod interface;
 #[cfg(feature = "std")]
+pub mod picture;
+#[cfg(feature = "std")]
 pub mod pipeline;
+#[cfg(feature = "std")]
+pub mod scene;
 pub mod setup;
 #[cfg(feature = "std")]
 pub mod texture;
