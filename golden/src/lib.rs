@@ -10,11 +10,19 @@
 extern crate alloc;
 
 pub mod config;
+#[cfg(feature = "std")]
+pub mod direct;
 pub mod formats;
 #[cfg(feature = "std")]
+pub mod frame;
 pub mod interface;
-#[cfg(feature = "std")]
 pub mod pipeline;
+#[cfg(feature = "std")]
+pub mod primary;
+#[cfg(feature = "std")]
+pub mod random;
 pub mod setup;
+#[cfg(feature = "std")]
+pub mod stereo;
 #[cfg(feature = "std")]
 pub mod texture;
