@@ -21,8 +21,12 @@ pub mod pipeline;
 pub mod primary;
 #[cfg(feature = "std")]
 pub mod random;
+#[cfg(feature = "std")]
+pub mod record;
 pub mod setup;
 #[cfg(feature = "std")]
 pub mod stereo;
+#[cfg(feature = "std")]
+pub mod targets;
 #[cfg(feature = "std")]
 pub mod texture;

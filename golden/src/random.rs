@@ -15,9 +15,9 @@ pub enum Class {
     Px8,
     /// About 2 pixels.
     Px2,
-    /// Tall and thinner than two pixels.
+    /// Tall and thin, down to a tenth of a pixel.
     VerticalSliver,
-    /// Wide and lower than two pixels.
+    /// Wide and low, down to a tenth of a pixel.
     HorizontalSliver,
     /// G1 between 1/29 and 1/10.
     ScaleNearZero,
@@ -93,6 +93,22 @@ impl Triangles {
         Polygon { vertices, eyes: Eyes::Both, ..Polygon::default() }
     }
 
+    /// A convex polygon of four to six corners, each corner on an ellipse.
+    pub fn convex(&mut self) -> Polygon {
+        let corners = self.rng.u32(4..=6);
+        let [width, height] = self.size.map(|n| n as f64);
+        let centre = [self.uniform(0.0, width), self.uniform(0.0, height)];
+        let reach = [self.uniform(4.0, 30.0), self.uniform(4.0, 30.0)];
+        let (turn, squeeze) = (self.uniform(0.0, 6.3), self.uniform(0.3, 1.0));
+        let vertices = (0..corners).map(|k| {
+            let angle = turn + f64::from(k) * core::f64::consts::TAU / f64::from(corners);
+            let x = centre[0] + reach[0] * angle.cos();
+            let primary = [self.px(x), self.px(centre[1] + reach[1] * angle.sin())];
+            self.vertex(primary, self.px(centre[0] + squeeze * (x - centre[0]) + 3.0), false)
+        });
+        Polygon { vertices: vertices.collect(), ..Polygon::default() }
+    }
+
     fn vertex(&mut self, primary: [i64; 2], secondary: i64, swap: bool) -> Vertex {
         let [left, right] = if swap { [secondary, primary[0]] } else { [primary[0], secondary] };
         let colour = [(); 2].map(|()| {
@@ -131,8 +147,8 @@ impl Triangles {
             Class::Px32 | Class::ScaleNearOne | Class::ScaleOne => [16.0; 2],
             Class::Px8 => [4.0; 2],
             Class::Px2 => [1.0; 2],
-            Class::VerticalSliver => [0.8, 60.0],
-            Class::HorizontalSliver => [60.0, 0.8],
+            Class::VerticalSliver => [self.uniform(0.05, 4.0), 60.0],
+            Class::HorizontalSliver => [60.0, self.uniform(0.05, 2.0)],
             Class::ScaleNearZero => [40.0, 12.0],
             Class::SteepShear => [40.0, 3.0],
             Class::Windows => [width.min(100.0), height.min(100.0)],

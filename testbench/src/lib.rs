@@ -1,1 +1,3 @@
 //! Co-simulation: Verilator models driven from Rust.
+
+pub mod cases;
