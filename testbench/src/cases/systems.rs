@@ -97,7 +97,6 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
     let size = [rng.u32(24..120), rng.u32(16..90)];
     let options = options(rng, config);
     let minimal = target == Target::Minimal;
-    let minimal = target == Target::Minimal;
     let nothing = job(config, options, size, &[]);
     let mut tape = Tape::new(&nothing, minimal);
     let mut drawn = 0;
