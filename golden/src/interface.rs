@@ -352,8 +352,8 @@ impl Table {
         &self.values
     }
 
-    /// Forgets all beats.
-    pub fn clear(&mut self) {
-        self.values.clear();
+    /// An empty table for the same beats.
+    pub fn emptied(&self) -> Table {
+        Table { masks: self.masks.clone(), values: Vec::new() }
     }
 }

@@ -11,6 +11,7 @@ use crate::pipeline::{Edges, Output, PrimaryBeat, Setup};
 use crate::primary::{Counts, Primary, Sink};
 use crate::setup::{Options, Outline, Placement, Planner, Polygon};
 use crate::texture::{Lookup, Texture};
+use std::borrow::Cow;
 
 /// How the second view is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +64,7 @@ impl Job<'_> {
             Direct { formats: Formats::new(&self.config), textures: self.textures, lookup: self.lookup };
         Eye::BOTH.map(|eye| {
             let mut frame = Frame::new(self.width, self.height, self.background);
-            for_each_piece(self.polygons, |polygon| direct.draw(polygon, eye, &mut frame));
+            pieces(self.polygons).for_each(|polygon| direct.draw(&polygon, eye, &mut frame));
             frame
         })
     }
@@ -71,7 +72,7 @@ impl Job<'_> {
     /// Sends the job's polygons through a primary pipeline into a sink.
     pub fn run(&self, minimal: bool, sink: &mut impl Sink) -> Counts {
         let mut primary = Primary::new(self.planner(minimal), self.textures, self.lookup);
-        for_each_piece(self.polygons, |polygon| primary.draw(polygon, sink));
+        pieces(self.polygons).for_each(|polygon| primary.draw(&polygon, sink));
         primary.counts
     }
 
@@ -85,21 +86,21 @@ impl Job<'_> {
     }
 }
 
-/// Calls `draw` for each polygon; one with more than three corners that snapping has made concave
+/// The polygons as they are drawn: one with more than three corners that snapping has made concave
 /// in either view is given in triangles.
-fn for_each_piece(polygons: &[Polygon], mut draw: impl FnMut(&Polygon)) {
-    for polygon in polygons {
+pub fn pieces(polygons: &[Polygon]) -> impl Iterator<Item = Cow<'_, Polygon>> {
+    polygons.iter().flat_map(|polygon| {
         let corners = polygon.vertices.len();
         let convex = || Eye::BOTH.iter().all(|&eye| Outline::new(polygon, eye).is_convex());
         if corners <= 3 || convex() {
-            draw(polygon);
-            continue;
+            return vec![Cow::Borrowed(polygon)];
         }
-        for k in 1..corners - 1 {
+        let triangle = |k: usize| {
             let vertices = [0, k, k + 1].map(|n| polygon.vertices[n]).to_vec();
-            draw(&Polygon { vertices, ..polygon.clone() });
-        }
-    }
+            Cow::Owned(Polygon { vertices, ..polygon.clone() })
+        };
+        (1..corners - 1).map(triangle).collect()
+    })
 }
 
 /// Either system, with one way to feed it.

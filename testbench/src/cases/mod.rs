@@ -13,7 +13,7 @@ use wheatstone_golden::config::Config;
 use wheatstone_golden::interface::{Beat, Direction, Interface, Table};
 use wheatstone_golden::targets::{Probe, Target};
 
-pub use systems::{scene_case, random_polygons, SceneCase};
+pub use systems::{random_polygons, recorded};
 
 /// What a target is fed and what must come out.
 #[derive(Clone, Debug)]

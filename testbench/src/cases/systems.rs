@@ -6,7 +6,7 @@ use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
 use wheatstone_golden::interface::{Direction, Table};
 use wheatstone_golden::pipeline::{Edges, Mode, Op, PrimaryBeat, Setup};
-use wheatstone_golden::primary::{Counts, Sink};
+use wheatstone_golden::primary::Sink;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::record::{Recording, Tape};
 use wheatstone_golden::setup::{Arrangement, Options, Polygon, Sampling, Specular};
@@ -14,22 +14,8 @@ use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::{probes, Target};
 use wheatstone_golden::texture::Lookup;
 
-/// A system's case, and what else the recording tells.
-#[derive(Clone, Debug)]
-pub struct SceneCase {
-    /// The case.
-    pub case: Case,
-    /// What the golden model drew.
-    pub recording: Recording,
-}
-
-/// The case of a job drawn by a system.
-pub fn scene_case(target: Target, job: &Job, name: &str) -> SceneCase {
-    let recording = Recording::of(job, target == Target::Minimal);
-    SceneCase { case: case_of(target, job, name, &recording), recording }
-}
-
-fn case_of(target: Target, job: &Job, name: &str, recording: &Recording) -> Case {
+/// The case of what a system did for a job, or for a part of it.
+pub fn recorded(target: Target, job: &Job, name: &str, recording: &Recording) -> Case {
     let mut case = Case::empty(target, &job.config, name);
     let interface = case.interface();
     case.statics = vec![job.width.into(), job.height.into(), job.options.single.into(), 0];
@@ -98,7 +84,7 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
     let options = options(rng, config);
     let minimal = target == Target::Minimal;
     let nothing = job(config, options, size, &[]);
-    let mut tape = Tape::new(&nothing, minimal);
+    let mut tape = Tape::new(&nothing, minimal, false);
     let mut drawn = 0;
     for _ in 0..beats {
         let polygons = random_polygons(rng.u64(..), Formats::new(config), size, 16);
@@ -107,8 +93,7 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
             break;
         }
     }
-    let recording = tape.finish(Counts::default());
-    case_of(target, &nothing, "random polygons", &recording)
+    recorded(target, &nothing, "random polygons", &tape.take())
 }
 
 fn job<'a>(config: &Config, options: Options, size: [u32; 2], polygons: &'a [Polygon]) -> Job<'a> {
@@ -132,16 +117,16 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let polygons = random_polygons(5, f, size, 12);
     let options = Options { cost_rule: false, ..Options::new(config) };
     let good = job(config, options, size, &polygons);
-    let mut tape = Tape::new(&good, minimal);
+    let mut tape = Tape::new(&good, minimal, false);
     good.run(minimal, &mut Spoiler { sink: tape.sink(), formats: f, polygon: 0 });
-    let spoiled = case_of(target, &good, "bad setups", &tape.finish(Counts::default()));
+    let spoiled = recorded(target, &good, "bad setups", &tape.take());
 
-    let mut tape = Tape::new(&good, minimal);
+    let mut tape = Tape::new(&good, minimal, false);
     let stray = PrimaryBeat { op: Op::Step, mask: Mask::new(1, &f), centre: true, ..Default::default() };
     tape.sink().beat(&stray);
     tape.sink().beat(&PrimaryBeat { op: Op::Row, last: true, ..stray });
-    let counts = good.run(minimal, tape.sink());
-    let stray = case_of(target, &good, "beats before the first polygon", &tape.finish(counts));
+    good.run(minimal, tape.sink());
+    let stray = recorded(target, &good, "beats before the first polygon", &tape.take());
     vec![spoiled, stray]
 }
 
