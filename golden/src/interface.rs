@@ -9,6 +9,11 @@
 
 use crate::config::Config;
 use crate::formats::{Eye, Formats, Quantity, Rgba};
+use alloc::{
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
 
 /// How the bits of a field are to be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,9 +96,9 @@ macro_rules! quantity_bits {
             }
             #[inline]
             fn from_bits(bits: u64) -> Self {
-                // The widest quantity has 40 bits; the declared width is checked where values are made.
-                let wide = Formats::new(&Config::FULL);
-                Self::wrap(bits as i64, &wide)
+                // Widest formats: the declared width is checked where values are made.
+                const WIDEST: Formats = Formats::minimal(&Config::FULL);
+                Self::wrap(bits as i64, &WIDEST)
             }
             fn field(name: &'static str, doc: &'static str, formats: &Formats) -> Field {
                 let kind = Kind::Number { signed: Self::SIGNED, fraction: Self::FRACTION };
@@ -105,7 +110,7 @@ macro_rules! quantity_bits {
 
 quantity_bits! {
     SecondaryX Scale Slant PixelX Coordinate DisplayStep Move EdgeValue Slope LowBits DepthPlane
-    ColourPlane Depth Area Mask Count
+    ColourPlane Depth Area Mask Count SampleData Tag
 }
 
 impl Bits for bool {
@@ -116,7 +121,12 @@ impl Bits for bool {
         bits & 1 == 1
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field { name, bits: 1, kind: Kind::Flag, doc }
+        Field {
+            name,
+            bits: 1,
+            kind: Kind::Flag,
+            doc,
+        }
     }
 }
 
@@ -128,7 +138,12 @@ impl Bits for Rgba {
         Rgba::from_word(bits as u32)
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field { name, bits: 32, kind: Kind::Colour, doc }
+        Field {
+            name,
+            bits: 32,
+            kind: Kind::Colour,
+            doc,
+        }
     }
 }
 
@@ -142,7 +157,12 @@ impl Bits for [u8; 3] {
         [r, g, b]
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field { name, bits: 24, kind: Kind::Colour, doc }
+        Field {
+            name,
+            bits: 24,
+            kind: Kind::Colour,
+            doc,
+        }
     }
 }
 
@@ -154,8 +174,16 @@ impl Bits for u8 {
         bits as u8
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        let kind = Kind::Number { signed: false, fraction: 0 };
-        Field { name, bits: 8, kind, doc }
+        let kind = Kind::Number {
+            signed: false,
+            fraction: 0,
+        };
+        Field {
+            name,
+            bits: 8,
+            kind,
+            doc,
+        }
     }
 }
 
@@ -167,7 +195,12 @@ impl Bits for Eye {
         Eye::BOTH[bits as usize & 1]
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field { name, bits: 1, kind: Kind::Code(&["left", "right"]), doc }
+        Field {
+            name,
+            bits: 1,
+            kind: Kind::Code(&["left", "right"]),
+            doc,
+        }
     }
 }
 
@@ -181,6 +214,15 @@ pub trait Beat: Copy + 'static {
     fn read(row: &[u64]) -> Self;
 }
 
+/// The name without Rust's mark for a keyword.
+#[doc(hidden)]
+pub fn plain(name: &'static str) -> &'static str {
+    name.strip_prefix("r#").unwrap_or(name)
+}
+
+#[doc(hidden)]
+pub use alloc::{vec as rows, vec::Vec as Rows};
+
 /// Declares a beat: a struct and its [`Beat`] table in one place.
 #[macro_export]
 macro_rules! beat {
@@ -192,12 +234,12 @@ macro_rules! beat {
         }
 
         impl $crate::interface::Beat for $name {
-            fn fields(formats: &$crate::formats::Formats) -> Vec<$crate::interface::Field> {
-                vec![$(<$type as $crate::interface::Bits>::field(
-                    stringify!($field), concat!($($fdoc),+).trim_ascii(), formats),)*]
+            fn fields(formats: &$crate::formats::Formats) -> $crate::interface::Rows<$crate::interface::Field> {
+                $crate::interface::rows![$(<$type as $crate::interface::Bits>::field(
+                    $crate::interface::plain(stringify!($field)), concat!($($fdoc),+).trim_ascii(), formats),)*]
             }
             #[inline]
-            fn write(&self, row: &mut Vec<u64>) {
+            fn write(&self, row: &mut $crate::interface::Rows<u64>) {
                 $(row.push($crate::interface::Bits::to_bits(self.$field));)*
             }
             fn read(row: &[u64]) -> Self {
@@ -234,7 +276,12 @@ pub struct Stream {
 
 impl Stream {
     fn of<B: Beat>(name: &'static str, direction: Direction, formats: &Formats) -> Stream {
-        Stream { name, direction, fields: B::fields(formats), answers: None }
+        Stream {
+            name,
+            direction,
+            fields: B::fields(formats),
+            answers: None,
+        }
     }
 
     /// An input stream of beats `B`.
@@ -287,7 +334,10 @@ pub struct Table {
 impl Table {
     /// An empty table for beats with these fields.
     pub fn new(fields: &[Field]) -> Table {
-        Table { masks: fields.iter().map(Field::mask).collect(), values: Vec::new() }
+        Table {
+            masks: fields.iter().map(Field::mask).collect(),
+            values: Vec::new(),
+        }
     }
 
     /// An empty table for beats `B`.
@@ -308,7 +358,8 @@ impl Table {
     /// Appends a beat given as a row of field values.
     pub fn push_row(&mut self, row: &[u64]) {
         debug_assert_eq!(row.len(), self.masks.len());
-        self.values.extend(row.iter().zip(&self.masks).map(|(v, m)| v & m));
+        self.values
+            .extend(row.iter().zip(&self.masks).map(|(v, m)| v & m));
     }
 
     /// Number of beats.
@@ -338,8 +389,8 @@ impl Table {
         &self.values
     }
 
-    /// Forgets all beats.
-    pub fn clear(&mut self) {
-        self.values.clear();
+    /// An empty table for the same beats.
+    pub fn emptied(&self) -> Table {
+        Table { masks: self.masks.clone(), values: Vec::new() }
     }
 }

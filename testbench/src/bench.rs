@@ -1,0 +1,111 @@
+//! A model in its test bench: reset, runs, waveforms.
+
+use crate::drive::{Run, JUNK};
+use crate::job::{Job, JobError, Responder, TraceWindow};
+use crate::model::{Library, LoadError, Model, TraceError};
+use crate::outcome::Outcome;
+
+/// A model in its test bench.
+///
+/// Runs follow one another without a reset, so that a long stimulus can be given in parts;
+/// cycles count on from the first reset.
+pub struct Bench {
+    model: Model,
+    cycle: u64,
+    random: fastrand::Rng,
+    junk: Vec<u64>,
+}
+
+impl Bench {
+    /// A new instance of a model, after a reset. The seed chooses the state it starts from and
+    /// the length of the reset, 1 to 4 clocks.
+    pub fn new(library: &Library, seed: u64) -> Result<Bench, LoadError> {
+        let layout = library.layout();
+        assert!(
+            layout.streams.len() < 32 && layout.probed.len() <= 64,
+            "too many streams"
+        );
+        let model = Model::new(library, seed)?;
+        let mut random = fastrand::Rng::with_seed(seed);
+        let junk = std::iter::repeat_with(|| random.u64(..))
+            .take(JUNK)
+            .collect();
+        let mut bench = Bench {
+            model,
+            cycle: 0,
+            random,
+            junk,
+        };
+        bench.reset();
+        Ok(bench)
+    }
+
+    /// Resets the model, wherever it is.
+    pub fn reset(&mut self) {
+        let clocks = self.random.u32(1..=4);
+        self.model.reset(clocks);
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    pub(crate) fn model_mut(&mut self) -> &mut Model {
+        &mut self.model
+    }
+
+    /// Cycles run since the first reset.
+    pub fn cycle(&self) -> u64 {
+        self.cycle
+    }
+
+    /// Writes a part of the runs that follow to a waveform file.
+    pub fn trace(&mut self, window: &TraceWindow) -> Result<(), TraceError> {
+        let times =
+            10 * window.from_cycle..10 * window.to_cycle.saturating_add(1).min(u64::MAX / 10);
+        self.model.trace_open(&window.path, times)
+    }
+
+    /// Completes the waveform file; dropping the bench does so too.
+    pub fn close_trace(&mut self) {
+        self.model.trace_close();
+    }
+
+    /// Runs a job to its end or to the first difference.
+    pub fn run(&mut self, job: &Job<'_>) -> Result<Outcome, JobError> {
+        self.run_until_done(job, None)
+    }
+
+    /// The same, with something that answers the module's requests.
+    pub fn run_with(
+        &mut self,
+        job: &Job<'_>,
+        responder: &mut dyn Responder,
+    ) -> Result<Outcome, JobError> {
+        self.run_until_done(job, Some(responder))
+    }
+
+    fn run_until_done(
+        &mut self,
+        job: &Job<'_>,
+        responder: Option<&mut dyn Responder>,
+    ) -> Result<Outcome, JobError> {
+        let library = self.model.library().clone();
+        let (interface, layout) = (library.interface(), library.layout());
+        job.check(interface, library.probes(), layout, responder.is_some())?;
+        for (index, &value) in job.statics.iter().enumerate() {
+            self.model.poke(layout.static_input(index), value);
+        }
+        let start = self.cycle;
+        let mut run = Run::new(&library, job, &self.junk);
+        let (result, end) = run.go(&mut self.model, start, job.limits, responder);
+        self.cycle = end;
+        self.model.trace_flush();
+        let result = result.and_then(|()| run.check_end(&self.model, end - 1, job.flags));
+        Ok(match result {
+            Ok(()) => Outcome::Passed(run.counts(start, end, interface)),
+            Err(outcome) => outcome,
+        })
+    }
+}

@@ -1,0 +1,232 @@
+// The part of the shim that is the same for every model. Before it, the generated text defines
+// the names used here: V (the model), ROOT_EVAL, SIGNALS, KEY, and the functions on its ports.
+
+#define API extern "C" __attribute__((visibility("default")))
+
+namespace {
+
+constexpr uint64_t STOPPED = 1ull << 63;
+
+// $finish, $stop, failed assertions and fatal errors reach us without a pointer to their model.
+// They are left here, counted, and taken by the model that ran on this thread.
+std::atomic<uint32_t> events{0};
+struct Event {
+    bool raised;
+    char text[512];
+};
+thread_local Event event;
+thread_local char printed[512];
+
+void raise(const char* what, const char* file, int line) {
+    event.raised = true;
+    if (event.text[0]) return;  // the first is the cause
+    const char* said = printed;
+    while (*said == ' ' || *said == '\n') ++said;
+    std::snprintf(event.text, sizeof event.text, "%s at %s:%d%s%s", what, file ? file : "?", line,
+                  *said ? ": " : "", said);
+    for (size_t n = std::strlen(event.text); n && event.text[n - 1] == '\n'; --n) {
+        event.text[n - 1] = 0;
+    }
+    printed[0] = 0;
+    events.fetch_add(1, std::memory_order_relaxed);
+}
+
+struct Fatal {};
+
+struct Pair {
+    uint64_t seen;
+    uint64_t wrong;
+};
+
+}  // namespace
+
+// Verilator's hooks. None may end the process; a fatal error must not return either, since
+// the loop that found no fixed point would go on for ever.
+void vl_finish(const char* file, int line, const char*) { raise("$finish", file, line); }
+void vl_stop(const char* file, int line, const char*) { raise("$stop or failed assertion", file, line); }
+void vl_fatal(const char* file, int line, const char*, const char* message) {
+    if (message) wheatstone_print("%s", message);
+    raise("fatal error", file, line);
+    throw Fatal{};
+}
+
+// What the model prints is kept: it explains the $stop that follows.
+extern "C" int wheatstone_print(const char* format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = std::vsnprintf(printed, sizeof printed, format, arguments);
+    va_end(arguments);
+    return length;
+}
+
+namespace {
+
+struct Handle {
+    VerilatedContext context;
+    std::unique_ptr<V> top;
+    V___024root* root = nullptr;
+    std::unique_ptr<VerilatedFstC> trace;
+    void* signals[SIGNALS] = {};
+    uint32_t events = 0;
+    bool stopped = false;
+    bool dead = false;
+    char text[sizeof event.text] = "";
+
+    explicit Handle(int seed) {
+        context.randReset(2);
+        context.randSeed(seed);
+        context.traceEverOn(true);
+        context.fatalOnError(false);
+    }
+
+    // Takes what happened on this thread, if anything did.
+    void collect() {
+        if (VL_LIKELY(events == ::events.load(std::memory_order_relaxed))) return;
+        events = ::events.load(std::memory_order_relaxed);
+        if (!event.raised) return;
+        stopped = true;
+        std::memcpy(text, event.text, sizeof text);
+        event.raised = false;
+        event.text[0] = 0;
+    }
+
+    // Runs something that may evaluate the model.
+    template <typename F>
+    void guarded(F f) {
+        if (dead) return;
+        try {
+            f();
+        } catch (const Fatal&) {
+            dead = true;
+        } catch (const std::exception& error) {
+            raise(error.what(), __FILE__, __LINE__);
+            dead = true;
+        }
+        collect();
+    }
+};
+
+// A signal inside the model, made public by the control file.
+void* find(Handle& h, const char* scope, const char* name, int bits) {
+    const VerilatedScope* const found = h.context.scopeFind(scope);
+    if (!found) throw std::runtime_error(std::string{"no instance "} + scope);
+    const VerilatedVar* const var = found->varFind(name);
+    if (!var) throw std::runtime_error(std::string{"no signal "} + name + " in " + scope);
+    const int width = var->dims() == 0 ? 1 : var->packed().elements();
+    if (width != bits) {
+        throw std::runtime_error(std::string{"signal "} + name + " in " + scope + " has " + std::to_string(width)
+                                 + " bits, not " + std::to_string(bits));
+    }
+    return var->datap();
+}
+
+void bind(Handle& h);
+void poke(V___024root* root, uint32_t which, const uint64_t* const* rows);
+void drive(V___024root* root, uint32_t bits);
+uint64_t sense(const V___024root* root);
+uint64_t compare(const V___024root* root, uint64_t seen, const uint64_t* const* rows);
+Pair probe(const Handle& h, const uint64_t* const* rows);
+
+}  // namespace
+
+API const char* wheatstone_key() { return KEY; }
+
+// Must not run at the same time as another one: Verilator's seeds are global.
+API Handle* wheatstone_new(int seed, char* error, size_t size) {
+    std::unique_ptr<Handle> h{new Handle{seed}};
+    Verilated::threadContextp(&h->context);
+    try {
+        h->top.reset(new V{&h->context, "TOP"});
+        h->root = h->top->rootp;
+        bind(*h);
+        h->root->clk_i = 0;
+        h->root->rst_i = 1;
+        h->top->eval();
+        h->collect();
+        if (h->stopped) std::snprintf(error, size, "%s", h->text);
+    } catch (const std::exception& e) {
+        std::snprintf(error, size, "%s", e.what());
+    } catch (const Fatal&) {
+        h->collect();
+        std::snprintf(error, size, "%s", h->text);
+    }
+    // No thread keeps a pointer to this context, which may be deleted by another one.
+    Verilated::threadContextp(Verilated::defaultContextp());
+    return error[0] ? nullptr : h.release();
+}
+
+API void wheatstone_delete(Handle* h) {
+    if (h->trace) h->trace->close();
+    h->guarded([=] { h->top->final(); });
+    delete h;
+}
+
+API void* wheatstone_signal(Handle* h, uint32_t index) { return index < SIGNALS ? h->signals[index] : nullptr; }
+
+API void wheatstone_eval(Handle* h) {
+    h->guarded([=] { h->top->eval(); });
+}
+
+// One clock: finishes the cycle before with the rising edge, applies the inputs of this cycle,
+// lets everything settle, and compares what the outputs offer with the expected rows.
+API Pair wheatstone_cycle(Handle* h, uint32_t drives, uint32_t pokes, const uint64_t* const* rows) {
+    V___024root* const root = h->root;
+    if (VL_UNLIKELY(h->dead)) return {0, STOPPED};
+    try {
+        root->clk_i = 1;
+        ROOT_EVAL(root);
+        if (pokes) poke(root, pokes, rows);
+        drive(root, drives);
+        root->clk_i = 0;
+        ROOT_EVAL(root);
+    } catch (const Fatal&) {
+        h->dead = true;
+    }
+    h->collect();
+    if (VL_UNLIKELY(h->stopped)) return {0, STOPPED};
+    const uint64_t seen = sense(root);
+    return {seen, compare(root, seen, rows)};
+}
+
+// The same with a trace: inputs change with the clock's rising edge in the middle of which
+// everything is settled, as in a textbook. The additional evaluation has no edge.
+API Pair wheatstone_cycle_traced(Handle* h, uint32_t drives, uint32_t pokes, const uint64_t* const* rows,
+                                 uint64_t time) {
+    V___024root* const root = h->root;
+    h->guarded([=] {
+        root->clk_i = 1;
+        h->top->eval();
+        if (pokes) poke(root, pokes, rows);
+        drive(root, drives);
+        h->top->eval();
+        if (h->trace) h->trace->dump(time);
+        root->clk_i = 0;
+        h->top->eval();
+        if (h->trace) h->trace->dump(time + 5);
+    });
+    if (h->stopped) return {0, STOPPED};
+    const uint64_t seen = sense(root);
+    return {seen, compare(root, seen, rows)};
+}
+
+API Pair wheatstone_probe(const Handle* h, const uint64_t* const* rows) { return probe(*h, rows); }
+
+API const char* wheatstone_stopped(const Handle* h) { return h->stopped ? h->text : nullptr; }
+
+API bool wheatstone_trace_open(Handle* h, const char* path) {
+    h->guarded([=] {
+        h->trace.reset(new VerilatedFstC);
+        h->top->trace(h->trace.get(), 99);
+        h->trace->open(path);
+    });
+    return h->trace && h->trace->isOpen();
+}
+
+API void wheatstone_trace_flush(Handle* h) {
+    if (h->trace) h->trace->flush();
+}
+
+API void wheatstone_trace_close(Handle* h) {
+    if (h->trace) h->trace->close();
+    h->trace.reset();
+}

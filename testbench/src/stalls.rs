@@ -1,0 +1,160 @@
+//! Stall patterns: on which clocks an input may begin to offer a beat, and on which an output
+//! is ready. Generated before a run; a run only looks bits up.
+
+use bitvec::prelude::{BitVec, Lsb0};
+use fastrand::Rng;
+
+/// How often a stream is held up by the test bench.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Pattern {
+    /// Never.
+    #[default]
+    None,
+    /// On a random quarter of the clocks.
+    Random25,
+    /// On a random half of the clocks.
+    Random50,
+    /// On a random three quarters of the clocks.
+    Random75,
+    /// In runs of up to 32 clocks, between runs of up to 32 clocks without.
+    Bursts,
+    /// On single clocks, up to 16 clocks apart.
+    Gaps,
+}
+
+impl Pattern {
+    /// All patterns.
+    pub const ALL: [Pattern; 6] = [
+        Pattern::None,
+        Pattern::Random25,
+        Pattern::Random50,
+        Pattern::Random75,
+        Pattern::Bursts,
+        Pattern::Gaps,
+    ];
+
+    /// Lower-case name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Pattern::None => "none",
+            Pattern::Random25 => "random25",
+            Pattern::Random50 => "random50",
+            Pattern::Random75 => "random75",
+            Pattern::Bursts => "bursts",
+            Pattern::Gaps => "gaps",
+        }
+    }
+
+    /// The pattern of that name.
+    pub fn named(name: &str) -> Option<Pattern> {
+        Pattern::ALL
+            .into_iter()
+            .find(|pattern| pattern.name() == name)
+    }
+
+    /// For every clock whether the stream may go on.
+    fn bits(self, clocks: usize, random: &mut Rng) -> BitVec<u64, Lsb0> {
+        let mut bits = BitVec::with_capacity(clocks);
+        while bits.len() < clocks {
+            match self {
+                Pattern::None => bits.push(true),
+                Pattern::Random25 => bits.push(random.u8(..4) >= 1),
+                Pattern::Random50 => bits.push(random.bool()),
+                Pattern::Random75 => bits.push(random.u8(..4) >= 3),
+                Pattern::Bursts => {
+                    let (go, stall) = (random.usize(1..=32), random.usize(1..=32));
+                    bits.resize(bits.len() + go, true);
+                    bits.resize(bits.len() + stall, false);
+                }
+                Pattern::Gaps => {
+                    bits.resize(bits.len() + random.usize(1..=16), true);
+                    bits.push(false);
+                }
+            }
+        }
+        bits.truncate(clocks);
+        bits
+    }
+}
+
+/// The stalls of one run: one pattern for all inputs, one for all outputs, different bits for each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Stalls {
+    /// When inputs do not begin to offer a beat.
+    pub idle: Pattern,
+    /// When outputs are not ready.
+    pub back_pressure: Pattern,
+    /// Chooses the bits.
+    pub seed: u64,
+}
+
+impl Stalls {
+    /// No stalls at all.
+    pub const NONE: Stalls = Stalls {
+        idle: Pattern::None,
+        back_pressure: Pattern::None,
+        seed: 0,
+    };
+    /// Clocks after which the bits repeat: a power of two.
+    pub const PERIOD: usize = 1 << 14;
+
+    /// Every idle pattern with every back-pressure pattern.
+    pub fn crossed(seed: u64) -> impl Iterator<Item = Stalls> {
+        Pattern::ALL.into_iter().flat_map(move |idle| {
+            Pattern::ALL.into_iter().map(move |back_pressure| Stalls {
+                idle,
+                back_pressure,
+                seed,
+            })
+        })
+    }
+
+    /// For every clock of a period, a mask of the streams that may go on; `inputs` has the bits
+    /// of the inputs, all other bits of `streams` are outputs.
+    pub(crate) fn gates(&self, streams: usize, inputs: u32) -> Vec<u32> {
+        let mut gates = vec![0u32; Stalls::PERIOD];
+        for stream in 0..streams {
+            let pattern = if inputs >> stream & 1 == 1 {
+                self.idle
+            } else {
+                self.back_pressure
+            };
+            let mut random = Rng::with_seed(self.seed.wrapping_mul(0x9e37_79b9) + stream as u64);
+            let bits = pattern.bits(gates.len(), &mut random);
+            for clock in bits.iter_ones() {
+                gates[clock] |= 1 << stream;
+            }
+        }
+        gates
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_have_the_density_they_promise() {
+        for (pattern, share) in [
+            (Pattern::None, 1.0..1.01),
+            (Pattern::Random25, 0.72..0.78),
+            (Pattern::Random50, 0.47..0.53),
+            (Pattern::Random75, 0.22..0.28),
+            (Pattern::Bursts, 0.42..0.58),
+            (Pattern::Gaps, 0.85..0.93),
+        ] {
+            let stalls = Stalls {
+                idle: pattern,
+                back_pressure: Pattern::None,
+                seed: 7,
+            };
+            let gates = stalls.gates(2, 1);
+            let go = gates.iter().filter(|gate| **gate & 1 == 1).count();
+            let found = go as f64 / gates.len() as f64;
+            assert!(share.contains(&found), "{}: {found}", pattern.name());
+            assert!(gates.iter().all(|gate| gate >> 1 == 1));
+            assert_eq!(Pattern::named(pattern.name()), Some(pattern));
+        }
+        assert_eq!(Stalls::crossed(1).count(), 36);
+    }
+}

@@ -1,0 +1,445 @@
+//! The programs that the test bench calls: where they are, whether they are new enough, and
+//! the command that installs them.
+
+use std::ffi::{OsStr, OsString};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use thiserror::Error;
+
+/// A version of a tool: its first two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Version {
+    /// First number.
+    pub major: u32,
+    /// Second number; Verilator 5.006 has minor 6.
+    pub minor: u32,
+}
+
+impl Version {
+    /// The first `digits.digits` in a program's answer.
+    pub fn parse(text: &str) -> Option<Version> {
+        text.split(|c: char| !c.is_ascii_digit() && c != '.')
+            .find_map(|word| {
+                let mut numbers = word.split('.');
+                let major = numbers.next()?.parse().ok()?;
+                let minor = numbers.next()?.parse().ok()?;
+                Some(Version { major, minor })
+            })
+    }
+}
+
+/// What the test bench knows about a tool before it has looked for it.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Tool {
+    /// Name of the program.
+    pub program: &'static str,
+    /// What it is needed for.
+    pub purpose: &'static str,
+    /// Whether co-simulation works without it.
+    pub optional: bool,
+    /// The oldest version that works.
+    pub oldest: Option<Version>,
+    /// The Debian package that has it.
+    pub package: &'static str,
+    /// The arguments that make it print its version.
+    version_arguments: &'static [&'static str],
+}
+
+impl Tool {
+    /// The command that installs it.
+    pub fn install_command(&self) -> String {
+        format!("apt-get install {}", self.package)
+    }
+
+    /// A version as this tool spells it.
+    fn spell(&self, version: Version) -> String {
+        let digits = if self.program == "verilator" { 3 } else { 1 };
+        format!("{}.{:0digits$}", version.major, version.minor)
+    }
+
+    /// Finds the program in the folders of `path`, a list as in the variable `PATH`.
+    pub fn find_in(&'static self, path: &OsStr) -> Result<Found, ToolError> {
+        let program = std::env::split_paths(path)
+            .filter(|folder| folder.is_absolute())
+            .map(|folder| folder.join(self.program))
+            .find(|program| program.is_file())
+            .ok_or(ToolError::Missing(self))?;
+        let text = first_line(&program, self.version_arguments, path);
+        let version = text.as_deref().and_then(Version::parse);
+        match (self.oldest, version) {
+            (Some(oldest), Some(found)) if found < oldest => Err(ToolError::TooOld {
+                tool: self,
+                found,
+                program,
+            }),
+            (Some(_), None) => Err(ToolError::Unusable {
+                tool: self,
+                program,
+            }),
+            _ => Ok(Found {
+                program,
+                version,
+                text: text.unwrap_or_default(),
+            }),
+        }
+    }
+}
+
+/// Translates Verilog to C++.
+pub static VERILATOR: Tool = Tool {
+    program: "verilator",
+    purpose: "co-simulation",
+    optional: false,
+    oldest: Some(Version { major: 5, minor: 6 }),
+    package: "verilator",
+    version_arguments: &["--version"],
+};
+/// Compiles the C++.
+pub static GXX: Tool = Tool {
+    program: "g++",
+    purpose: "co-simulation",
+    optional: false,
+    oldest: Some(Version { major: 9, minor: 0 }),
+    package: "g++",
+    version_arguments: &["-dumpfullversion"],
+};
+static ICARUS: Tool = Tool {
+    program: "iverilog",
+    purpose: "replay of vectors, cross-check",
+    optional: true,
+    oldest: Some(Version {
+        major: 11,
+        minor: 0,
+    }),
+    package: "iverilog",
+    version_arguments: &["-V"],
+};
+static VVP: Tool = Tool {
+    program: "vvp",
+    purpose: "replay of vectors, cross-check",
+    optional: true,
+    oldest: Some(Version {
+        major: 11,
+        minor: 0,
+    }),
+    package: "iverilog",
+    version_arguments: &["-V"],
+};
+static YOSYS: Tool = Tool {
+    program: "yosys",
+    purpose: "synthesis checks",
+    optional: true,
+    oldest: None,
+    package: "yosys",
+    version_arguments: &["-V"],
+};
+static GTKWAVE: Tool = Tool {
+    program: "gtkwave",
+    purpose: "looking at waveforms",
+    optional: true,
+    oldest: None,
+    package: "gtkwave",
+    version_arguments: &["--version"],
+};
+/// Not a program of its own: the compiler is asked for the header.
+static ZLIB: Tool = Tool {
+    program: "zlib.h",
+    purpose: "co-simulation (waveform files)",
+    optional: false,
+    oldest: None,
+    package: "zlib1g-dev",
+    version_arguments: &[],
+};
+
+/// A program that was found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// Where it is.
+    pub program: PathBuf,
+    /// Its version, where it says so.
+    pub version: Option<Version>,
+    /// The line in which it says so.
+    pub text: String,
+}
+
+/// A tool cannot be used.
+#[derive(Debug, Error, PartialEq, Eq)]
+pub enum ToolError {
+    /// It was not found.
+    #[error("{} is not installed, {} needs it; install it with: {}", .0.program, .0.purpose, .0.install_command())]
+    Missing(&'static Tool),
+    /// It is older than the oldest version that works.
+    #[error(
+        "{} {} ({}) is too old, {} needs {} or newer; install it with: {}",
+        .tool.program, .tool.spell(*.found), .program.display(), .tool.purpose,
+        .tool.spell(.tool.oldest.unwrap_or(*.found)), .tool.install_command()
+    )]
+    TooOld {
+        /// The tool.
+        tool: &'static Tool,
+        /// The version found.
+        found: Version,
+        /// Where it was found.
+        program: PathBuf,
+    },
+    /// It does not say its version.
+    #[error(
+        "{} does not run (it did not print its version); install it again with: {}",
+        .program.display(), .tool.install_command()
+    )]
+    Unusable {
+        /// The tool.
+        tool: &'static Tool,
+        /// Where it was found.
+        program: PathBuf,
+    },
+}
+
+/// First non-empty line that a program prints on its standard output.
+fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Option<String> {
+    let output = Command::new(program)
+        .args(arguments)
+        .env("PATH", path)
+        .output()
+        .ok()?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    text.lines()
+        .map(str::trim)
+        .find(|line| !line.is_empty())
+        .map(str::to_owned)
+}
+
+/// The folders in which programs are looked for.
+fn search_path() -> OsString {
+    std::env::var_os("PATH").unwrap_or_default()
+}
+
+/// Everything needed to build a model.
+#[derive(Clone, Debug)]
+pub struct Toolchain {
+    /// Verilator.
+    pub verilator: Found,
+    /// The C++ compiler.
+    pub gxx: Found,
+    /// Verilator's folder with the C++ headers and sources that every model uses.
+    pub include: PathBuf,
+    path: OsString,
+}
+
+impl Toolchain {
+    /// Finds the tools in the folders of the variable `PATH`.
+    pub fn find() -> Result<Toolchain, ToolError> {
+        Toolchain::find_in(&search_path())
+    }
+
+    /// Finds the tools in the folders of `path`, a list as in the variable `PATH`.
+    pub fn find_in(path: &OsStr) -> Result<Toolchain, ToolError> {
+        let verilator = VERILATOR.find_in(path)?;
+        let gxx = GXX.find_in(path)?;
+        let root = first_line(&verilator.program, &["--getenv", "VERILATOR_ROOT"], path);
+        let include = root.map(|root| Path::new(&root).join("include"));
+        match include.filter(|folder| folder.join("verilated.cpp").is_file()) {
+            Some(include) => Ok(Toolchain {
+                verilator,
+                gxx,
+                include,
+                path: path.to_owned(),
+            }),
+            None => Err(ToolError::Unusable {
+                tool: &VERILATOR,
+                program: verilator.program.clone(),
+            }),
+        }
+    }
+
+    /// A command that sees the same programs as this tool chain.
+    pub(crate) fn command(&self, tool: &Found) -> Command {
+        let mut command = Command::new(&tool.program);
+        command.env("PATH", &self.path);
+        command
+    }
+
+    /// Whether the compiler finds zlib, which waveform files need.
+    pub(crate) fn check_zlib(&self) -> Result<(), ToolError> {
+        zlib_header(&self.gxx, &self.path).map(drop)
+    }
+}
+
+/// Asks the compiler for the header of zlib.
+fn zlib_header(gxx: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
+    let arguments = ["-E", "-M", "-x", "c++", "-include", "zlib.h", "/dev/null"];
+    let output = Command::new(&gxx.program)
+        .args(arguments)
+        .env("PATH", path)
+        .output();
+    let output = output.ok().filter(|output| output.status.success());
+    let output = output.ok_or(ToolError::Missing(&ZLIB))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let header = text
+        .split_whitespace()
+        .find(|word| word.ends_with("/zlib.h"));
+    header.map(PathBuf::from).ok_or(ToolError::Missing(&ZLIB))
+}
+
+/// One row of the table that `wheatstone doctor` prints.
+#[derive(Debug)]
+pub struct Examined {
+    /// The tool.
+    pub tool: &'static Tool,
+    /// What was found.
+    pub result: Result<Found, ToolError>,
+}
+
+/// Which tools are there, and which are not.
+#[derive(Debug)]
+pub struct Doctor {
+    /// One row a tool.
+    pub rows: Vec<Examined>,
+}
+
+impl Doctor {
+    /// Looks for every tool in the folders of the variable `PATH`.
+    pub fn examine() -> Doctor {
+        Doctor::examine_in(&search_path())
+    }
+
+    /// Looks for every tool in the folders of `path`.
+    pub fn examine_in(path: &OsStr) -> Doctor {
+        let programs = [&VERILATOR, &GXX, &ICARUS, &VVP, &YOSYS, &GTKWAVE];
+        let mut rows: Vec<Examined> = programs
+            .into_iter()
+            .map(|tool| Examined {
+                tool,
+                result: tool.find_in(path),
+            })
+            .collect();
+        let zlib = match &rows[1].result {
+            Ok(gxx) => zlib_header(gxx, path),
+            Err(_) => Err(ToolError::Missing(&ZLIB)),
+        };
+        let zlib = zlib.map(|program| Found {
+            program,
+            version: None,
+            text: String::new(),
+        });
+        rows.insert(
+            2,
+            Examined {
+                tool: &ZLIB,
+                result: zlib,
+            },
+        );
+        Doctor { rows }
+    }
+
+    /// Whether everything that co-simulation needs is there.
+    pub fn is_ready(&self) -> bool {
+        self.rows
+            .iter()
+            .all(|row| row.tool.optional || row.result.is_ok())
+    }
+}
+
+impl fmt::Display for Doctor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut table = comfy_table::Table::new();
+        table.load_preset(comfy_table::presets::ASCII_MARKDOWN);
+        table.set_header(["tool", "needed for", "found", "to install"]);
+        for Examined { tool, result } in &self.rows {
+            let found = match result {
+                Ok(Found {
+                    program,
+                    version: Some(version),
+                    ..
+                }) => {
+                    format!("{} {}", tool.spell(*version), program.display())
+                }
+                Ok(Found { program, .. }) => program.display().to_string(),
+                Err(ToolError::Missing(_)) => "missing".to_owned(),
+                Err(ToolError::TooOld { found, .. }) => format!("{}: too old", tool.spell(*found)),
+                Err(ToolError::Unusable { .. }) => "does not run".to_owned(),
+            };
+            let install = if result.is_ok() {
+                String::new()
+            } else {
+                tool.install_command()
+            };
+            let purpose = if tool.optional { "optional: " } else { "" };
+            table.add_row([
+                tool.program,
+                &format!("{purpose}{}", tool.purpose),
+                &found,
+                &install,
+            ]);
+        }
+        write!(f, "{table}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn versions_are_read_from_what_the_tools_print() {
+        let version = |major, minor| Some(Version { major, minor });
+        let of = Version::parse;
+        assert_eq!(
+            of("Verilator 5.006 2023-01-22 rev (Debian 5.006-3)"),
+            version(5, 6)
+        );
+        assert_eq!(of("Verilator 4.228 2022-10-01"), version(4, 228));
+        assert_eq!(of("12.2.0"), version(12, 2));
+        assert_eq!(
+            of("Icarus Verilog version 11.0 (stable) ()"),
+            version(11, 0)
+        );
+        assert_eq!(of("Yosys 0.23 (git sha1 7ce5011c24b)"), version(0, 23));
+        assert_eq!(
+            of("GTKWave Analyzer v3.3.118 (w)1999-2023 BSI"),
+            version(3, 3)
+        );
+        assert_eq!(of("Could not initialize GTK!"), None);
+    }
+
+    #[test]
+    fn an_empty_path_gives_one_message_with_the_command() {
+        let error = Toolchain::find_in(OsStr::new("")).unwrap_err();
+        assert_eq!(error, ToolError::Missing(&VERILATOR));
+        let text = error.to_string();
+        assert!(text.contains("apt-get install verilator"), "{text}");
+        assert!(!Doctor::examine_in(OsStr::new("")).is_ready());
+    }
+
+    #[test]
+    fn an_old_verilator_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let program = folder.path().join("verilator");
+        std::fs::write(
+            &program,
+            "#!/bin/sh\necho 'Verilator 4.038 2020-07-11 rev v4.036'\n",
+        )
+        .unwrap();
+        let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+        std::fs::set_permissions(&program, mode).unwrap();
+        let error = Toolchain::find_in(folder.path().as_os_str()).unwrap_err();
+        assert!(matches!(
+            error,
+            ToolError::TooOld {
+                found: Version {
+                    major: 4,
+                    minor: 38
+                },
+                ..
+            }
+        ));
+        let text = error.to_string();
+        assert!(
+            text.contains("apt-get install verilator")
+                && text.contains("5.006")
+                && text.contains("4.038"),
+            "{text}"
+        );
+    }
+}

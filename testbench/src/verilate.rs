@@ -1,0 +1,471 @@
+//! Builds models: Verilog to C++ by Verilator, C++ to a shared object by g++, cached by content.
+//!
+//! A model's folder in the cache is named after a hash of everything that goes into it: the
+//! versions of both tools, all flags, every Verilog file that the module can use, and the
+//! generated C++. The files are read once; what was hashed is what is compiled. A model is built in a
+//! temporary folder under a file lock and then renamed, so that neither a second process nor a
+//! killed one leaves half a model.
+
+use crate::layout::{Layout, Probe};
+use crate::model::{Library, LoadError};
+use crate::ports::{self, PortError};
+use crate::shim::{self, PREFIX};
+use crate::sources::{self, Sources};
+use crate::tools::{ToolError, Toolchain};
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+use thiserror::Error;
+use wheatstone_golden::interface::Interface;
+
+/// Flags of every translation; `-fno-…` against wrong code of Verilator 5.006 (its issue #4832).
+const VERILATOR_FLAGS: &[&str] = &[
+    "--cc",
+    "--prefix",
+    PREFIX,
+    "--trace-fst",
+    "--x-assign",
+    "unique",
+    "--x-initial",
+    "unique",
+    "--assert",
+    "-fno-const-bit-op-tree",
+    "-fno-expand",
+    "-Wno-fatal",
+    "-Irtl",
+    "-y",
+    "rtl",
+];
+
+/// Flags of every compilation. TLS descriptors spare `eval` four calls into the loader.
+const GXX_FLAGS: &[&str] = &[
+    "-std=gnu++17",
+    "-O3",
+    "-fPIC",
+    "-fvisibility=hidden",
+    "-fno-gnu-unique",
+    #[cfg(target_arch = "x86_64")]
+    "-mtls-dialect=gnu2",
+    "-DVL_USER_FINISH",
+    "-DVL_USER_STOP",
+    "-DVL_USER_FATAL",
+    "-DVL_PRINTF=wheatstone_print",
+    "-DVM_TRACE=1",
+    "-DVM_TRACE_FST=1",
+    "-DVM_TRACE_VCD=0",
+    "-DVM_COVERAGE=0",
+    "-DVM_SC=0",
+];
+
+/// Sources of Verilator's runtime that every model is linked with.
+const RUNTIME: [&str; 3] = ["verilated", "verilated_threads", "verilated_fst_c"];
+
+/// What is to be built.
+#[derive(Clone, Copy, Debug)]
+pub struct Spec<'a> {
+    /// The module, its parameters and its streams.
+    pub interface: &'a Interface,
+    /// The folder with `<module>.v` and everything that it uses.
+    pub rtl: &'a Path,
+    /// Units inside the module whose streams are watched.
+    pub probes: &'a [Probe],
+}
+
+/// What a build is doing, for a progress display. Nothing is said about a model found in the cache.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress<'a> {
+    /// Verilator's runtime is compiled: once a machine, some seconds.
+    Runtime,
+    /// A model is being built.
+    Building(&'a str),
+    /// A model is ready.
+    Built(&'a str, Duration),
+}
+
+impl fmt::Display for Progress<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Progress::Runtime => write!(f, "building Verilator's runtime ..."),
+            Progress::Building(module) => write!(f, "building {module} ..."),
+            Progress::Built(module, time) => {
+                write!(f, "built {module} in {:.1} s", time.as_secs_f64())
+            }
+        }
+    }
+}
+
+/// A model could not be built.
+#[derive(Debug, Error)]
+pub enum BuildError {
+    /// A tool is missing or too old.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+    /// A Verilog file could not be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Source {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The cache could not be written.
+    #[error("cannot write {}: {source}", .path.display())]
+    Cache {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The module's ports are not those of its interface.
+    #[error(transparent)]
+    Port(#[from] PortError),
+    /// A tool refused the module.
+    #[error("{tool} failed on {module}:\n{lines}\n(all of it: {})", .log.display())]
+    Failed {
+        /// Which tool.
+        tool: &'static str,
+        /// Which module.
+        module: String,
+        /// The first lines of what it said.
+        lines: String,
+        /// The file with all of it.
+        log: PathBuf,
+    },
+    /// The finished model could not be loaded.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+}
+
+type Callback = Box<dyn Fn(Progress<'_>) + Send + Sync>;
+
+/// Builds models and keeps them in a cache.
+pub struct Builder {
+    tools: Toolchain,
+    cache: PathBuf,
+    progress: Callback,
+}
+
+impl Builder {
+    /// The cache that the programs of this workspace use, seen from the workspace's folder.
+    pub const CACHE: &'static str = "target/wheatstone/models";
+
+    /// A builder that keeps its models in the folder `cache`, created when needed.
+    pub fn new(tools: Toolchain, cache: impl Into<PathBuf>) -> Builder {
+        Builder {
+            tools,
+            cache: cache.into(),
+            progress: Box::new(|_| ()),
+        }
+    }
+
+    /// Calls `report` on every step of a build, possibly from several threads.
+    pub fn on_progress(mut self, report: impl Fn(Progress<'_>) + Send + Sync + 'static) -> Builder {
+        self.progress = Box::new(report);
+        self
+    }
+
+    /// The model, from the cache or built now, loaded.
+    pub fn build(&self, spec: &Spec<'_>) -> Result<Library, BuildError> {
+        let module = spec.interface.module;
+        let sources = sources::read(spec.rtl, module).map_err(|e| BuildError::Source {
+            path: e.path,
+            source: e.source,
+        })?;
+        let layout = Layout::new(spec.interface, spec.probes);
+        let job = Job {
+            builder: self,
+            spec,
+            control: shim::control_file(spec.probes, &layout),
+            shim: shim::text(spec.interface, spec.probes, &layout),
+            layout: &layout,
+            sources: &sources,
+        };
+        let key = job.key();
+        let folder = self.cache.join(format!("{module}-{key}"));
+        let object = folder.join("model.so");
+        if !object.is_file() {
+            let _lock = Lock::take(&self.cache, &format!("{module}-{key}.lock"))?;
+            if !object.is_file() {
+                (self.progress)(Progress::Building(module));
+                let start = Instant::now();
+                let temporary = self.cache.join(format!("{module}-{key}.building"));
+                let result = job.build(&key, &temporary);
+                if result.is_err() {
+                    let _ = fs::remove_dir_all(&temporary);
+                }
+                result?;
+                rename(&temporary, &folder)?;
+                (self.progress)(Progress::Built(module, start.elapsed()));
+            }
+        }
+        Ok(Library::load(
+            &object,
+            &key,
+            spec.interface,
+            spec.probes,
+            layout,
+        )?)
+    }
+
+    /// The objects of Verilator's runtime, compiled once per compiler and flags.
+    fn runtime(&self) -> Result<Vec<PathBuf>, BuildError> {
+        let mut hash = self.tool_hash();
+        for name in RUNTIME {
+            let path = self.tools.include.join(format!("{name}.cpp"));
+            hash.update(&fs::read(&path).map_err(|source| BuildError::Source { path, source })?);
+        }
+        let key = short(&hash);
+        let folder = self.cache.join(format!("runtime-{key}"));
+        let objects = RUNTIME
+            .map(|name| folder.join(format!("{name}.o")))
+            .to_vec();
+        if folder.is_dir() {
+            return Ok(objects);
+        }
+        let _lock = Lock::take(&self.cache, &format!("runtime-{key}.lock"))?;
+        if folder.is_dir() {
+            return Ok(objects);
+        }
+        self.tools.check_zlib()?;
+        (self.progress)(Progress::Runtime);
+        let temporary = self.cache.join(format!("runtime-{key}.building"));
+        fresh_folder(&temporary)?;
+        write(&temporary.join("print.h"), shim::PRINT_HEADER.as_bytes())?;
+        for name in RUNTIME {
+            let mut command = self.compiler(&temporary);
+            command
+                .arg("-c")
+                .arg(self.tools.include.join(format!("{name}.cpp")));
+            command.arg("-o").arg(format!("{name}.o"));
+            let log = self.cache.join(format!("runtime-{key}.log"));
+            run(command, "g++", "verilator's runtime", &log)?;
+        }
+        rename(&temporary, &folder)?;
+        Ok(objects)
+    }
+
+    /// g++ with the flags of every compilation, working in `folder`, where `print.h` is.
+    fn compiler(&self, folder: &Path) -> Command {
+        let mut command = self.tools.command(&self.tools.gxx);
+        command
+            .current_dir(folder)
+            .args(GXX_FLAGS)
+            .args(["-include", "print.h"]);
+        command
+            .arg("-I")
+            .arg(&self.tools.include)
+            .arg("-I")
+            .arg(self.tools.include.join("vltstd"));
+        command
+    }
+
+    /// A hash of the tools and their flags.
+    fn tool_hash(&self) -> blake3::Hasher {
+        let mut hash = blake3::Hasher::new();
+        let tools = [&self.tools.verilator, &self.tools.gxx];
+        for tool in tools {
+            entry(
+                &mut hash,
+                tool.program.as_os_str().as_encoded_bytes(),
+                tool.text.as_bytes(),
+            );
+        }
+        for flag in VERILATOR_FLAGS.iter().chain(GXX_FLAGS) {
+            entry(&mut hash, b"flag", flag.as_bytes());
+        }
+        entry(&mut hash, b"print", shim::PRINT_HEADER.as_bytes());
+        hash
+    }
+}
+
+/// One model to be built.
+struct Job<'a> {
+    builder: &'a Builder,
+    spec: &'a Spec<'a>,
+    layout: &'a Layout,
+    sources: &'a Sources,
+    control: String,
+    shim: String,
+}
+
+impl Job<'_> {
+    fn key(&self) -> String {
+        let mut hash = self.builder.tool_hash();
+        for (name, value) in &self.spec.interface.parameters {
+            entry(&mut hash, name.as_bytes(), value.to_string().as_bytes());
+        }
+        for (name, content) in self.sources {
+            entry(&mut hash, name.as_bytes(), content);
+        }
+        entry(&mut hash, b"control", self.control.as_bytes());
+        entry(&mut hash, b"shim", self.shim.as_bytes());
+        short(&hash)
+    }
+
+    /// Builds `model.so` in a folder of its own, which holds nothing else at the end.
+    fn build(&self, key: &str, temporary: &Path) -> Result<(), BuildError> {
+        let runtime = self.builder.runtime()?;
+        let module = self.spec.interface.module;
+        let log = self.builder.cache.join(format!("{module}-{key}.log"));
+        fresh_folder(&temporary.join("rtl"))?;
+        for (name, content) in self.sources {
+            write(&temporary.join("rtl").join(name), content)?;
+        }
+        write(&temporary.join("probes.vlt"), self.control.as_bytes())?;
+        write(&temporary.join("print.h"), shim::PRINT_HEADER.as_bytes())?;
+
+        let tools = &self.builder.tools;
+        let mut command = tools.command(&tools.verilator);
+        command.current_dir(temporary).args(VERILATOR_FLAGS);
+        command.args(["--Mdir", "cpp", "--top-module", module]);
+        for (name, value) in &self.spec.interface.parameters {
+            command.arg(format!("-G{name}={value}"));
+        }
+        command.arg(format!("rtl/{module}.v")).arg("probes.vlt");
+        run(command, "verilator", module, &log)?;
+
+        let header = temporary.join("cpp").join(format!("{PREFIX}.h"));
+        let text = fs::read_to_string(&header).map_err(|source| BuildError::Cache {
+            path: header,
+            source,
+        })?;
+        ports::check(module, &self.layout.signals[..self.layout.ports], &text)?;
+
+        let files = cpp_files(&temporary.join("cpp"))?;
+        let unit = shim::head(&files, key) + &self.shim;
+        write(&temporary.join("cpp/model.cpp"), unit.as_bytes())?;
+        let mut command = self.builder.compiler(temporary);
+        command.args(["-shared", "-Wl,-Bsymbolic", "-I", "cpp", "cpp/model.cpp"]);
+        command.args(runtime.iter().map(|object| absolute(object)));
+        command.args(["-o", "model.so", "-pthread", "-lz"]);
+        run(command, "g++", module, &log)?;
+        for part in ["cpp", "rtl"] {
+            let path = temporary.join(part);
+            fs::remove_dir_all(&path).map_err(|source| BuildError::Cache { path, source })?;
+        }
+        Ok(())
+    }
+}
+
+/// Hashes two byte strings so that no other pair gives the same input.
+fn entry(hash: &mut blake3::Hasher, name: &[u8], content: &[u8]) {
+    for bytes in [name, content] {
+        hash.update(&(bytes.len() as u64).to_le_bytes());
+        hash.update(bytes);
+    }
+}
+
+fn short(hash: &blake3::Hasher) -> String {
+    hash.finalize().to_hex()[..24].to_owned()
+}
+
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// The C++ files that Verilator wrote, sorted.
+fn cpp_files(folder: &Path) -> Result<Vec<String>, BuildError> {
+    let at = |source| BuildError::Cache {
+        path: folder.to_owned(),
+        source,
+    };
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).map_err(at)? {
+        let name = entry
+            .map_err(at)?
+            .file_name()
+            .to_string_lossy()
+            .into_owned();
+        if name.ends_with(".cpp") {
+            files.push(name);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// Runs a tool; its output goes to `log`, which stays only if it failed.
+fn run(
+    mut command: Command,
+    tool: &'static str,
+    module: &str,
+    log: &Path,
+) -> Result<(), BuildError> {
+    let output = command.output().map_err(|source| BuildError::Cache {
+        path: PathBuf::from(command.get_program()),
+        source,
+    })?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let text = [output.stdout, output.stderr].concat();
+    write(log, &text)?;
+    let text = String::from_utf8_lossy(&text);
+    let all: Vec<&str> = text.lines().collect();
+    let first = all
+        .iter()
+        .position(|line| line.contains("rror"))
+        .unwrap_or(0);
+    let lines = all[first..]
+        .iter()
+        .take(8)
+        .copied()
+        .collect::<Vec<_>>()
+        .join("\n");
+    Err(BuildError::Failed {
+        tool,
+        module: module.to_owned(),
+        lines,
+        log: log.to_owned(),
+    })
+}
+
+fn fresh_folder(path: &Path) -> Result<(), BuildError> {
+    let at = |source| BuildError::Cache {
+        path: path.to_owned(),
+        source,
+    };
+    match fs::remove_dir_all(path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => return Err(at(source)),
+        _ => (),
+    }
+    fs::create_dir_all(path).map_err(at)
+}
+
+fn write(path: &Path, content: &[u8]) -> Result<(), BuildError> {
+    File::create(path)
+        .and_then(|mut file| file.write_all(content))
+        .map_err(|source| BuildError::Cache {
+            path: path.to_owned(),
+            source,
+        })
+}
+
+fn rename(from: &Path, to: &Path) -> Result<(), BuildError> {
+    fs::rename(from, to).map_err(|source| BuildError::Cache {
+        path: to.to_owned(),
+        source,
+    })
+}
+
+/// A lock between threads and processes, given back when dropped.
+struct Lock {
+    _file: File,
+}
+
+impl Lock {
+    fn take(folder: &Path, name: &str) -> Result<Lock, BuildError> {
+        let path = folder.join(name);
+        let at = |source| BuildError::Cache {
+            path: path.clone(),
+            source,
+        };
+        fs::create_dir_all(folder).map_err(at)?;
+        let file = File::create(&path).map_err(at)?;
+        file.lock().map_err(at)?;
+        Ok(Lock { _file: file })
+    }
+}
