@@ -12,6 +12,8 @@ extern crate alloc;
 pub mod config;
 pub mod formats;
 #[cfg(feature = "std")]
+pub mod header;
+#[cfg(feature = "std")]
 pub mod interface;
 #[cfg(feature = "std")]
 pub mod pipeline;
