@@ -5,11 +5,11 @@
 `default_nettype none
 
 module sam_clamp #(
-    // Bits of the result: 1 or more. The value has two guard bits above and its fraction below.
+    // Bits of the result: 1 or more. The value has guard bits above and its fraction below.
     parameter BITS = 8
 ) (
-    input  wire [BITS+2+`SAM_FRACTION_BITS-1:0] value_i,
-    output wire [BITS-1:0]                      clamped_o
+    input  wire [BITS+`SAM_GUARD_BITS+`SAM_FRACTION_BITS-1:0] value_i,
+    output wire [BITS-1:0] clamped_o
 );
     localparam F = `SAM_FRACTION_BITS;
 
@@ -19,8 +19,10 @@ module sam_clamp #(
         end
     endgenerate
 
-    wire negative = value_i[F+BITS+1];
-    wire above    = value_i[F+BITS];
+    localparam G = `SAM_GUARD_BITS;
+
+    wire negative = value_i[F+BITS+G-1];
+    wire above    = |value_i[F+BITS +: G-1];
 
     assign clamped_o = (value_i[F +: BITS] | {BITS{above}}) & {BITS{~negative}};
 

@@ -42,6 +42,8 @@
 `define SAM_COUNT_BITS 5
 // Fraction bits of the quantities that have a fraction
 `define SAM_FRACTION_BITS 14
+// Integer bits of a depth or colour plane beyond the range of the attribute
+`define SAM_GUARD_BITS 5
 // Op of a beat
 `define SAM_OP_BITS 2
 // Mode of a polygon

@@ -86,6 +86,12 @@ fn widths(text: &mut String) {
         "SAM_FRACTION_BITS",
         |_| FRACTION_BITS,
     );
+    define(
+        text,
+        "Integer bits of a depth or colour plane beyond the range of the attribute",
+        "SAM_GUARD_BITS",
+        |_| GUARD_BITS,
+    );
     define(text, "Op of a beat", "SAM_OP_BITS", |f| Op::field("", "", f).bits);
     define(text, "Mode of a polygon", "SAM_MODE_BITS", |f| Mode::field("", "", f).bits);
     define(text, "Colour with alpha, red in the lowest byte", "SAM_RGBA_BITS", |f| {

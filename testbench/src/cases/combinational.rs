@@ -119,7 +119,7 @@ pub fn blend_corners(config: &Config) -> Case {
                     alpha,
                     area: Area::new(area.into(), f),
                     background: [b, s, b],
-                    tag: Tag::new((i64::from(s) << 8) + i64::from(b), f),
+                    tag: Tag::wrap(i64::from(s ^ b), f),
                 };
                 case.give(&pixel);
                 case.expect(&blend(&pixel, f));

@@ -159,7 +159,7 @@ impl<'a> Runner<'a> {
             statics: &case.statics,
             tables: &tables,
             flags: &case.flags,
-            probes: if self.setting.library.probes().is_empty() { &[] } else { &probes },
+            probes: &probes,
             stalls: self.setting.stalls,
             ..Job::default()
         };
