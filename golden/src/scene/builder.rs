@@ -73,11 +73,10 @@ impl<'a> Builder<'a> {
         self.translucent.sort_by_key(far);
         self.opaque.append(&mut self.translucent);
         self.counts.polygons = self.opaque.len();
-        let [r, g, b] = self.scene.background;
         Geometry {
             width: self.scene.width,
             height: self.scene.height,
-            background: Rgba([r, g, b, 255]),
+            background: self.scene.background,
             polygons: self.opaque,
             textures: self.scene.textures.clone(),
             counts: self.counts,

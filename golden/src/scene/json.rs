@@ -112,6 +112,10 @@ fn broken(file: &Path, error: &serde_json::Error, path: &str) -> InputError {
         }
         return new(if path.is_empty() { quoted } else { path }, "one value", message);
     }
+    if message == "trailing characters" && !path.is_empty() {
+        // All arrays of a fixed length here are of this one.
+        return new(path, "3 elements", "more");
+    }
     new(if path.is_empty() { "file" } else { path }, "well-formed JSON", message)
 }
 
