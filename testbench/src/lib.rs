@@ -8,6 +8,7 @@
 
 mod bench;
 pub mod cases;
+pub mod cli;
 mod drive;
 mod job;
 mod layout;
@@ -16,6 +17,7 @@ mod model;
 mod outcome;
 pub mod pack;
 mod ports;
+pub mod regression;
 pub mod settings;
 mod shim;
 mod sources;
@@ -23,6 +25,7 @@ mod speed;
 mod stalls;
 pub mod tools;
 mod verilate;
+pub mod waves;
 
 pub use bench::Bench;
 pub use job::{Job, JobError, Limits, Responder, TraceWindow};

@@ -57,6 +57,12 @@ impl Unit {
         Unit::Redirect,
     ];
 
+    /// Name in reports: that of the instance without its prefix.
+    pub fn name(self) -> &'static str {
+        let instance = self.instance();
+        instance.split('.').next_back().and_then(|i| i.strip_prefix("u_")).unwrap_or(instance)
+    }
+
     /// Name of the Verilog instance inside a system, its generate block included.
     pub fn instance(self) -> &'static str {
         match self {

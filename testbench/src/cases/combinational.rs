@@ -24,7 +24,7 @@ fn edge(rng: &mut Rng, f: &Formats) -> (EdgeValue, Slope, Slope, LowBits) {
         _ => rng.i64(-1 - a.abs() - b.abs()..=1 + a.abs() + b.abs()) * 3 / 8,
     };
     let [a, b] = [a, b].map(|n| Slope::new(n, f));
-    (EdgeValue::wrap(value, f), a, b, LowBits::new(rng.i64(..8), f))
+    (EdgeValue::wrap(value, f), a, b, LowBits::new(rng.i64(0..8), f))
 }
 
 fn join(edges: [(EdgeValue, Slope, Slope, LowBits); 3]) -> CoverageEdges {
