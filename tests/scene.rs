@@ -353,7 +353,7 @@ fn a_scene_file_is_drawn_as_it_stands() {
         "triangles": [[3, 3, 3], [0, 1, 2], [2, 1, 0]]"#;
     let plain = json::scene(Path::new("x.json"), &format!("{text}}}")).expect("well-formed");
     let seen = geometry(&plain);
-    assert_eq!((seen.width, seen.height, seen.background), (200, 100, [1, 2, 3]));
+    assert_eq!((seen.width, seen.height, seen.background.rgb()), (200, 100, [1, 2, 3]));
     assert_eq!(seen.counts.empty, 1);
     assert_eq!(seen.polygons.iter().map(|p| p.id).collect::<Vec<_>>(), [1, 2]);
     let vertices = &seen.polygons[0].vertices;
@@ -372,4 +372,34 @@ fn a_scene_file_is_drawn_as_it_stands() {
     assert!(pieces.iter().all(|p| p.vertices.iter().all(|v| v.colour[1].0 == [7, 8, 9, 255])));
     let deepest = pieces.iter().flat_map(|p| &p.vertices).map(|v| v.depth).max();
     assert_eq!(deepest, Some(DEPTH_MAX));
+}
+
+#[test]
+fn extreme_scenes_stay_within_the_formats() {
+    let mut random = fastrand::Rng::with_seed(7);
+    let mut drawn = 0;
+    for _ in 0..20_000 {
+        let magnitudes = [1e9, 1e6, 1e3, 1.0, 1e-3, 1e-9];
+        let most = magnitudes[random.usize(..6)];
+        let mut corner =
+            || [0; 3].map(|_| (random.f64() - 0.5) * if random.bool() { most } else { 2.0 });
+        let positions = vec![corner(), corner(), corner()];
+        let mut power = |range: f64| 10f64.powf((random.f64() - 0.5) * range);
+        let rig = Rig { head_tilt: 0.0, ..rig(power(18.0), power(18.0), power(14.0)) };
+        let tilt = if random.bool() { random.f64() * 360.0 - 180.0 } else { 0.0 };
+        let scene = triangles(positions, Rig { head_tilt: tilt, ..rig });
+        for formats in [WIDE, NARROW] {
+            let options = Options { cull: Cull::Back, ..Options::default() };
+            let seen = scene.geometry(&formats, &options).expect("legal");
+            drawn += seen.polygons.len();
+            let (one, guard) = (formats.one_pixel() as i32, formats.guard_band as i32);
+            for vertex in seen.polygons.iter().flat_map(|p| &p.vertices) {
+                let legal = |n: &i32, size: i32| (-guard * one..=(size + guard) * one).contains(n);
+                assert!(vertex.x.iter().all(|x| legal(x, 640)), "{scene:?}");
+                assert!(vertex.y.iter().all(|y| legal(y, 480)), "{scene:?}");
+                assert!(vertex.depth <= DEPTH_MAX && vertex.inverse <= 1 << 24, "{scene:?}");
+            }
+        }
+    }
+    assert!(drawn > 5000, "{drawn}");
 }

@@ -1,6 +1,6 @@
 //! Pictures: stereo composites, comparisons, and files that are either whole or not there.
 
-use crate::frame::{Frame, NO_ID};
+use crate::formats::Rgba;
 pub use image::{Rgb, RgbImage};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -214,19 +214,18 @@ pub fn id_of_colour(colour: Rgb<u8>) -> Option<u32> {
     u32::from_be_bytes([0, r, g, b]).checked_sub(1)
 }
 
-/// The ids of a frame as an id picture.
-pub fn ids(frame: &Frame) -> RgbImage {
-    picture(frame, |n| id_colour(frame.id.get(n).copied().filter(|&id| id != NO_ID)))
+/// An id picture; `id` is asked for every pixel.
+pub fn id_picture(width: u32, height: u32, id: impl Fn(u32, u32) -> Option<u32>) -> RgbImage {
+    RgbImage::from_fn(width, height, |x, y| id_colour(id(x, y)))
 }
 
-/// The colours of a frame.
-pub fn colours(frame: &Frame) -> RgbImage {
-    picture(frame, |n| Rgb(frame.colour.get(n).copied().unwrap_or_default()))
-}
-
-fn picture(frame: &Frame, pixel: impl Fn(usize) -> Rgb<u8>) -> RgbImage {
-    let at = |x: u32, y: u32| y as usize * frame.width as usize + x as usize;
-    RgbImage::from_fn(frame.width, frame.height, |x, y| pixel(at(x, y)))
+/// A picture of colours given row by row; alpha is left out. Missing ones are black.
+pub fn colour_picture(width: u32, height: u32, colours: &[Rgba]) -> RgbImage {
+    let mut picture = RgbImage::new(width, height);
+    for (pixel, colour) in picture.pixels_mut().zip(colours) {
+        *pixel = Rgb(colour.rgb());
+    }
+    picture
 }
 
 /// Absolute differences of two pictures of one size, each multiplied by `gain`.
@@ -307,11 +306,12 @@ mod tests {
         for id in [None, Some(0), Some(255), Some(65_535), Some((1 << 24) - 2)] {
             assert_eq!(id_of_colour(id_colour(id)), id);
         }
-        let mut frame = Frame::new(3, 2, [9, 8, 7]);
-        frame.id[4] = 6;
-        assert_eq!(ids(&frame).get_pixel(1, 1), &Rgb([0, 0, 7]));
-        assert_eq!(ids(&frame).get_pixel(1, 0), &Rgb([0; 3]));
-        assert_eq!(colours(&frame).get_pixel(2, 1), &Rgb([9, 8, 7]));
+        let picture = id_picture(3, 2, |x, y| (x == 1 && y == 1).then_some(6));
+        assert_eq!(picture.get_pixel(1, 1), &Rgb([0, 0, 7]));
+        assert_eq!(picture.get_pixel(1, 0), &Rgb([0; 3]));
+        let picture = colour_picture(2, 2, &[Rgba([1, 2, 3, 4]), Rgba([5, 6, 7, 8])]);
+        assert_eq!(picture.get_pixel(1, 0), &Rgb([5, 6, 7]));
+        assert_eq!(picture.get_pixel(1, 1), &Rgb([0; 3]));
     }
 
     #[test]

@@ -73,10 +73,11 @@ impl<'a> Builder<'a> {
         self.translucent.sort_by_key(far);
         self.opaque.append(&mut self.translucent);
         self.counts.polygons = self.opaque.len();
+        let [r, g, b] = self.scene.background;
         Geometry {
             width: self.scene.width,
             height: self.scene.height,
-            background: self.scene.background,
+            background: Rgba([r, g, b, 255]),
             polygons: self.opaque,
             textures: self.scene.textures.clone(),
             counts: self.counts,

@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::error::{check_size, SceneError, ID_LIMIT};
 use super::Scene;
-use crate::formats::Formats;
+use crate::formats::{Formats, Rgba};
 use crate::setup::Polygon;
 use crate::texture::Texture;
 
@@ -65,7 +65,7 @@ pub struct Geometry {
     /// Height of each view in pixels.
     pub height: u32,
     /// Colour where nothing is drawn.
-    pub background: [u8; 3],
+    pub background: Rgba,
     /// The polygons in the order to draw them: opaque ones by id, then the others, the farthest
     /// first.
     pub polygons: Vec<Polygon>,
