@@ -130,7 +130,7 @@ module sam_hybrid #(
     wire offered = beat_valid_i & (~is_load | setup_valid_i);
     wire s1_valid, s1_ready, s1_taken;
 
-    assign beat_ready_o  = s1_ready & (~is_load | setup_valid_i);
+    assign beat_ready_o  = s1_ready & ~(beat_valid_i & ~offered);
     assign setup_ready_o = s1_ready & beat_valid_i & is_load;
 
     wire [`SAM_OP_BITS-1:0]   s1_op;

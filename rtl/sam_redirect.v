@@ -85,7 +85,7 @@ module sam_redirect #(
     assign left_valid_o  = slot_valid_i & (left_primary ? primary_here : secondary_here);
     assign right_valid_o = slot_valid_i & ~single_i & (right_primary ? primary_here : secondary_here);
 
-    // The pixel is on a stream that takes it. Needs no valid: it counts in a valid slot only.
+    // The pixel is on a stream that takes it.
     wire primary_taken   = (single_i | ~slot_eye_i) ? left_ready_i : right_ready_i;
     wire secondary_taken = single_i ? (left_ready_i & ~primary_here)
                                     : (slot_eye_i ? left_ready_i : right_ready_i);
@@ -93,7 +93,7 @@ module sam_redirect #(
     wire primary_done   = ~primary_here | primary_taken;
     wire secondary_done = ~secondary_here | secondary_taken;
 
-    assign slot_ready_o = primary_done & secondary_done;
+    assign slot_ready_o = ~slot_valid_i | (primary_done & secondary_done);
 
     always @(posedge clk_i) begin
         if (rst_i | (slot_valid_i & slot_ready_o)) begin
