@@ -4,6 +4,8 @@ use crate::drive::{Run, JUNK};
 use crate::job::{Job, JobError, Responder, TraceWindow};
 use crate::model::{Library, LoadError, Model, TraceError};
 use crate::outcome::Outcome;
+use crate::stalls::Stalls;
+use wheatstone_golden::interface::Direction;
 
 /// A model in its test bench.
 ///
@@ -14,6 +16,8 @@ pub struct Bench {
     cycle: u64,
     random: fastrand::Rng,
     junk: Vec<u64>,
+    /// The gates of the stalls that were used last.
+    gates: (Stalls, Vec<u32>),
 }
 
 impl Bench {
@@ -21,21 +25,11 @@ impl Bench {
     /// the length of the reset, 1 to 4 clocks.
     pub fn new(library: &Library, seed: u64) -> Result<Bench, LoadError> {
         let layout = library.layout();
-        assert!(
-            layout.streams.len() < 32 && layout.probed.len() <= 64,
-            "too many streams"
-        );
+        assert!(layout.streams.len() < 32 && layout.probed.len() <= 64, "too many streams");
         let model = Model::new(library, seed)?;
         let mut random = fastrand::Rng::with_seed(seed);
-        let junk = std::iter::repeat_with(|| random.u64(..))
-            .take(JUNK)
-            .collect();
-        let mut bench = Bench {
-            model,
-            cycle: 0,
-            random,
-            junk,
-        };
+        let junk = std::iter::repeat_with(|| random.u64(..)).take(JUNK).collect();
+        let mut bench = Bench { model, cycle: 0, random, junk, gates: Default::default() };
         bench.reset();
         Ok(bench)
     }
@@ -97,8 +91,12 @@ impl Bench {
         for (index, &value) in job.statics.iter().enumerate() {
             self.model.poke(layout.static_input(index), value);
         }
+        if self.gates.0 != job.stalls || self.gates.1.is_empty() {
+            let inputs = layout.mask(Direction::Input);
+            self.gates = (job.stalls, job.stalls.gates(layout.streams.len(), inputs));
+        }
         let start = self.cycle;
-        let mut run = Run::new(&library, job, &self.junk);
+        let mut run = Run::new(&library, job, &self.gates.1, &self.junk);
         let (result, end) = run.go(&mut self.model, start, job.limits, responder);
         self.cycle = end;
         self.model.trace_flush();

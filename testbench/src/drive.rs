@@ -20,61 +20,49 @@ mod report;
 use crate::job::{Job, Limits, Responder};
 use crate::model::{Library, Model, Rows, Seen};
 use crate::outcome::Outcome;
-use crate::stalls::Stalls;
 use report::payload;
-use std::slice::ChunksExact;
 use wheatstone_golden::interface::{Direction, Stream, Table};
 
 /// One stream during a run.
 struct Lane<'a> {
-    /// Rows after the present one.
-    rest: ChunksExact<'a, u64>,
-    /// The row to be offered next, or the one expected next.
-    row: &'a [u64],
-    /// Rows in all.
-    total: Option<u64>,
+    /// The row to be offered or expected next, and all rows after it.
+    rows: &'a [u64],
+    /// Fields of a row.
+    width: usize,
     /// Beats taken.
     done: u64,
-    /// Clocks on which a beat waited.
-    stalled: u64,
-    /// Cycle of the first beat.
-    first: u64,
     /// Cycle of the last beat.
     last: u64,
-    /// For an answer: the requests.
-    answers: Option<usize>,
-    /// For requests: the answers.
-    answered_by: Option<usize>,
+    /// Cycle of the first beat.
+    first: u64,
+    /// Clocks on which a beat waited.
+    stalled: u64,
+    /// Rows in all, if there is a table.
+    total: Option<u64>,
 }
 
 impl<'a> Lane<'a> {
-    /// A lane at the first row of its table, and whether there is one.
-    fn new(stream: &Stream, table: Option<&'a Table>) -> (Lane<'a>, bool) {
-        let values = table.map_or(&[][..], Table::values);
-        let mut rest = values.chunks_exact(stream.fields.len().max(1));
-        let row = rest.next();
-        let lane = Lane {
-            rest,
-            row: row.unwrap_or_default(),
-            total: table.map(|table| table.len() as u64),
+    fn new(stream: &Stream, table: Option<&'a Table>) -> Lane<'a> {
+        Lane {
+            rows: table.map_or(&[], Table::values),
+            width: stream.fields.len(),
             done: 0,
-            stalled: 0,
-            first: 0,
             last: 0,
-            answers: None,
-            answered_by: None,
-        };
-        (lane, row.is_some())
+            first: 0,
+            stalled: 0,
+            total: table.map(|table| table.len() as u64),
+        }
     }
 
-    /// Counts a beat.
+    /// The row to be offered or expected next; empty if there is none.
+    fn row(&self) -> &'a [u64] {
+        self.rows.get(..self.width).unwrap_or_default()
+    }
+
+    /// Goes on to the next row.
     #[inline]
-    fn count(&mut self, cycle: u64) {
-        if self.done == 0 {
-            self.first = cycle;
-        }
-        self.done += 1;
-        self.last = cycle;
+    fn step(&mut self) {
+        self.rows = self.rows.get(self.width..).unwrap_or_default();
     }
 }
 
@@ -88,116 +76,114 @@ fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The state of a run; the masks have a bit a stream.
-pub(crate) struct Run<'a> {
-    lanes: Vec<Lane<'a>>,
-    probes: Vec<Lane<'a>>,
-    rows: Rows<'a>,
-    gates: Vec<u32>,
-    /// Random words, for the fields of inputs that offer nothing.
-    junk: &'a [u64],
-    inputs: u32,
-    outputs: u32,
-    /// Outputs that are compared.
-    checked: u32,
-    /// Inputs that the responder supplies.
-    asked: u32,
-    /// Streams with rows left, or answers due.
-    unfinished: u32,
-    /// Compared outputs without a row left.
-    exhausted: u32,
+/// What changes from clock to clock, a bit a stream.
+#[derive(Clone, Copy, Default)]
+struct State {
     /// Inputs that have a beat and wait for their gate.
     waiting: u32,
     /// Inputs that are offering a beat.
     offered: u32,
     /// Inputs served in the last cycle.
     freed: u32,
+    /// Inputs whose row was replaced by random words.
+    junked: u32,
     /// Outputs with a beat that was not taken in the last cycle.
     held: u32,
+    /// Streams with rows left, or answers due.
+    unfinished: u32,
+    /// Compared outputs without a row left.
+    exhausted: u32,
+    /// Streams of whose beats more than the count is kept.
+    special: u32,
+}
+
+/// A run; the masks here do not change.
+pub(crate) struct Run<'a> {
+    lanes: Vec<Lane<'a>>,
+    probes: Vec<Lane<'a>>,
+    rows: Rows<'a>,
+    gates: &'a [u32],
+    /// Random words, for the fields of inputs that offer nothing.
+    junk: &'a [u64],
+    inputs: u32,
+    outputs: u32,
+    /// Streams with a table.
+    tabled: u32,
+    /// Inputs that answer requests, and the numbers of both.
+    answers: u32,
+    pairs: Vec<(usize, usize)>,
+    /// Streams of whose beats the responder is told.
+    told: u32,
+    state: State,
     /// Probed streams that are compared.
     probed: u64,
     /// Probed streams without a row left.
     probes_exhausted: u64,
+    /// Beats compared on probed streams.
     compared: u64,
 }
 
-/// Random words from which a row may be cut anywhere.
+/// Random words from which a row may be cut anywhere below 1024.
 pub(crate) const JUNK: usize = 1024 + 256;
 
 impl<'a> Run<'a> {
-    /// Prepares a run; the job was checked.
-    pub fn new(library: &Library, job: &Job<'a>, junk: &'a [u64]) -> Run<'a> {
-        let layout = library.layout();
-        let inputs = layout.mask(Direction::Input);
+    /// Prepares a run; the job was checked. The length of `gates` is a power of two.
+    pub fn new(library: &Library, job: &Job<'a>, gates: &'a [u32], junk: &'a [u64]) -> Run<'a> {
+        let (interface, layout) = (library.interface(), library.layout());
+        let streams = || interface.streams.iter().zip(job.tables);
+        let mask = |f: &dyn Fn(&Stream, &Option<&Table>) -> bool| {
+            let bits = streams().enumerate().map(|(i, (s, table))| u32::from(f(s, table)) << i);
+            bits.sum::<u32>()
+        };
+        let answering = layout.streams.iter().enumerate();
+        let pairs: Vec<(usize, usize)> =
+            answering.filter_map(|(i, s)| s.answers.map(|request| (i, request))).collect();
         let mut run = Run {
-            lanes: Vec::new(),
+            lanes: streams().map(|(stream, table)| Lane::new(stream, *table)).collect(),
             probes: Vec::new(),
             rows: Rows::new(library),
-            gates: job.stalls.gates(layout.streams.len(), inputs),
+            gates,
             junk,
-            inputs,
+            inputs: layout.mask(Direction::Input),
             outputs: layout.mask(Direction::Output),
-            checked: 0,
-            asked: 0,
-            unfinished: 0,
-            exhausted: 0,
-            waiting: 0,
-            offered: 0,
-            freed: 0,
-            held: 0,
+            tabled: mask(&|_, table| table.is_some()),
+            answers: pairs.iter().map(|(answer, _)| 1 << answer).sum(),
+            pairs,
+            told: 0,
+            state: State::default(),
             probed: 0,
             probes_exhausted: 0,
             compared: 0,
         };
-        for (number, stream) in library.interface().streams.iter().enumerate() {
-            let (table, bit) = (job.tables[number], 1u32 << number);
-            let (mut lane, has_row) = Lane::new(stream, table);
-            lane.answers = layout.streams[number].answers;
-            run.unfinished |= if has_row { bit } else { 0 };
-            match (stream.direction, table) {
-                (Direction::Input, None) => run.asked |= bit,
-                (Direction::Input, Some(_)) if lane.answers.is_none() && has_row => {
-                    run.waiting |= bit;
-                }
-                (Direction::Output, Some(_)) => {
-                    run.checked |= bit;
-                    run.exhausted |= if has_row { 0 } else { bit };
-                    if has_row {
-                        run.rows.set(number, lane.row);
-                    }
-                }
-                _ => (),
-            }
-            run.lanes.push(lane);
-        }
-        for answer in 0..run.lanes.len() {
-            if let Some(request) = run.lanes[answer].answers {
-                run.lanes[request].answered_by = Some(answer);
-            }
+        let filled = mask(&|_, table| table.is_some_and(|table| !table.is_empty()));
+        run.state.unfinished = filled;
+        run.state.waiting = filled & run.inputs & !run.answers;
+        run.state.exhausted = run.tabled & run.outputs & !filled;
+        run.state.special = u32::MAX;
+        for stream in bits(filled.into()) {
+            run.rows.set(stream, run.lanes[stream].rows);
         }
         run.watch(library, job.probes);
         run
     }
 
     fn watch(&mut self, library: &Library, tables: &[Option<&'a Table>]) {
-        let streams = library
-            .probes()
-            .iter()
-            .flat_map(|probe| &probe.unit.streams);
+        let streams = library.probes().iter().flat_map(|probe| &probe.unit.streams);
         for (number, (stream, table)) in streams.zip(tables).enumerate() {
-            let (lane, has_row) = Lane::new(stream, *table);
+            let lane = Lane::new(stream, *table);
             if table.is_some() {
                 self.probed |= 1 << number;
-                self.probes_exhausted |= if has_row { 0 } else { 1 << number };
             }
-            if has_row {
-                self.rows.set(self.lanes.len() + number, lane.row);
+            if lane.rows.is_empty() {
+                self.probes_exhausted |= 1 << number;
+            } else {
+                self.rows.set(self.lanes.len() + number, lane.rows);
             }
             self.probes.push(lane);
         }
     }
 
-    /// Runs to the end, from cycle `start`; returns the result and the cycles simulated.
+    /// Runs to the end, from cycle `start`; returns the result and the cycle after the last.
     pub fn go(
         &mut self,
         model: &mut Model,
@@ -205,71 +191,97 @@ impl<'a> Run<'a> {
         limits: Limits,
         mut responder: Option<&mut dyn Responder>,
     ) -> (Result<(), Outcome>, u64) {
+        let asked = self.inputs & !self.tabled;
+        let checked = u64::from(self.outputs & self.tabled) | Seen::STOPPED;
+        self.told = if responder.is_some() { self.outputs } else { 0 };
+        let mut state = self.state;
         let (mut cycle, mut idle, mut after) = (start, 0, 0);
         let result = loop {
-            let gate = self.gates[cycle as usize % Stalls::PERIOD];
-            let pokes = self.offer(gate, cycle, &mut responder);
-            let drive = self.offered | (gate & self.outputs);
+            let gate = self.gates[cycle as usize & (self.gates.len() - 1)];
+            let mut pokes = gate & state.waiting;
+            state.waiting ^= pokes;
+            let unusual = (state.freed & !pokes) | (state.junked & pokes) | (asked & gate);
+            if unusual != 0 {
+                pokes = self.prepare(&mut state, gate, pokes, cycle, &mut responder);
+            }
+            state.offered |= pokes;
+            let drive = state.offered | (gate & self.outputs);
             let found = model.cycle(10 * cycle, drive, pokes, &self.rows);
             let seen = found.seen as u32;
+
             if self.probed != 0 && found.wrong & Seen::STOPPED == 0 {
                 if let Err(mismatch) = self.look(model, cycle) {
                     break Err(mismatch);
                 }
             }
-            let wrong = found.wrong as u32 & self.checked;
-            let faulty = wrong | (seen & self.exhausted) | (self.held & !seen);
-            if faulty != 0 || found.wrong & Seen::STOPPED != 0 {
-                break Err(self.fault(model, cycle, faulty, seen, found.wrong));
+            let faulty = (found.wrong & checked)
+                | u64::from(seen & state.exhausted)
+                | u64::from(state.held & !seen);
+            if faulty != 0 {
+                break Err(self.fault(model, cycle, &state, faulty, seen));
             }
-            self.held = seen & !drive & self.outputs;
-            for stream in bits((self.held | (drive & !seen & self.inputs)).into()) {
+
+            state.held = seen & !drive & self.outputs;
+            for stream in bits((state.held | (drive & !seen & self.inputs)).into()) {
                 self.lanes[stream].stalled += 1;
             }
             let taken = drive & seen;
             for stream in bits(taken.into()) {
-                self.advance(model, stream, cycle, &mut responder);
+                self.advance(model, &mut state, stream, cycle, &mut responder);
             }
-            idle = if taken != 0 { 0 } else { idle + 1 };
+            state.freed = taken & self.inputs;
+            state.offered &= !state.freed;
+            state.waiting |= state.freed & state.unfinished & !self.answers;
+            if self.answers != 0 && taken != 0 {
+                self.release(&mut state);
+            }
+
             cycle += 1;
-            if self.unfinished != 0 {
-                after = 0;
-                if idle >= limits.watchdog {
-                    break Err(self.hung(model, cycle - 1, idle));
-                }
-            } else {
+            idle = if taken != 0 { 0 } else { idle + 1 };
+            if state.unfinished == 0 {
                 after += 1;
                 if idle >= limits.quiet || after >= limits.watchdog {
                     break Ok(());
+                }
+            } else {
+                after = 0;
+                if idle >= limits.watchdog {
+                    break Err(self.hung(model, cycle - 1, idle));
                 }
             }
         };
         (result, cycle)
     }
 
-    /// Begins to offer what may be offered; returns the inputs whose fields are to be set.
-    #[inline]
-    fn offer(&mut self, gate: u32, cycle: u64, responder: &mut Option<&mut dyn Responder>) -> u32 {
-        let mut opening = gate & self.waiting;
-        self.waiting ^= opening;
-        for stream in bits(opening.into()) {
-            self.rows.set(stream, self.lanes[stream].row);
+    /// Sets the rows of inputs that do not simply go on: after stalls, and from the responder.
+    /// Returns the inputs whose fields are to be set.
+    #[inline(never)]
+    fn prepare(
+        &mut self,
+        state: &mut State,
+        gate: u32,
+        opening: u32,
+        cycle: u64,
+        responder: &mut Option<&mut dyn Responder>,
+    ) -> u32 {
+        for stream in bits((opening & state.junked).into()) {
+            self.rows.set(stream, self.lanes[stream].rows);
         }
+        state.junked &= !opening;
+        let mut offering = opening;
         if let Some(responder) = responder {
-            for stream in bits((gate & self.asked & !self.offered).into()) {
-                let filled = self
-                    .rows
-                    .fill(stream, |row| responder.respond(stream, cycle, row));
-                opening |= u32::from(filled) << stream;
+            let asked = gate & self.inputs & !self.tabled & !state.offered;
+            for stream in bits(asked.into()) {
+                let filled = self.rows.fill(stream, |row| responder.respond(stream, cycle, row));
+                offering |= u32::from(filled) << stream;
             }
         }
-        let idle = self.freed & !opening;
-        self.freed = 0;
-        self.offered |= opening;
+        let idle = state.freed & !offering;
         for stream in bits(idle.into()) {
             self.rows.set(stream, &self.junk[cycle as usize % 1024..]);
         }
-        opening | idle
+        state.junked |= idle;
+        offering | idle
     }
 
     /// A beat of a stream was taken.
@@ -277,63 +289,63 @@ impl<'a> Run<'a> {
     fn advance(
         &mut self,
         model: &Model,
+        state: &mut State,
         stream: usize,
         cycle: u64,
         responder: &mut Option<&mut dyn Responder>,
     ) {
         let bit = 1u32 << stream;
-        let lane = &mut self.lanes[stream];
-        lane.count(cycle);
-        if self.inputs & bit != 0 {
-            self.offered ^= bit;
-            self.freed |= bit;
-            if self.asked & bit == 0 {
-                match lane.rest.next() {
-                    Some(row) => lane.row = row,
-                    None => self.unfinished ^= bit,
-                }
-            }
-            self.release(stream);
-            return;
+        if state.special & bit != 0 {
+            self.notice(model, stream, cycle, responder);
+            state.special &= !bit | self.told;
         }
-        if let Some(responder) = responder {
-            if self.checked & bit != 0 {
-                responder.accepted(stream, cycle, lane.row);
+        let lane = &mut self.lanes[stream];
+        lane.done += 1;
+        lane.last = cycle;
+        if self.tabled & bit != 0 {
+            lane.step();
+            if lane.rows.is_empty() {
+                state.unfinished &= !bit;
+                state.exhausted |= bit & self.outputs;
+            } else {
+                self.rows.set(stream, lane.rows);
+            }
+        }
+    }
+
+    /// Keeps the cycle of a first beat and tells the responder of outputs.
+    #[inline(never)]
+    fn notice(
+        &mut self,
+        model: &Model,
+        stream: usize,
+        cycle: u64,
+        responder: &mut Option<&mut dyn Responder>,
+    ) {
+        let lane = &mut self.lanes[stream];
+        if lane.done == 0 {
+            lane.first = cycle;
+        }
+        if let (Some(responder), true) = (responder, self.told >> stream & 1 == 1) {
+            if lane.total.is_some() {
+                responder.accepted(stream, cycle, lane.row());
             } else {
                 let row = payload(model, &model.library().layout().streams[stream]);
                 responder.accepted(stream, cycle, &row);
             }
         }
-        if self.checked & bit != 0 {
-            match lane.rest.next() {
-                Some(row) => {
-                    lane.row = row;
-                    self.rows.set(stream, row);
-                }
-                None => {
-                    self.unfinished ^= bit;
-                    self.exhausted |= bit;
-                }
-            }
-        }
-        if let Some(answer) = self.lanes[stream].answered_by {
-            self.release(answer);
-        }
     }
 
-    /// Lets an input go on, after it was served or a request for it was taken.
-    #[inline]
-    fn release(&mut self, stream: usize) {
-        let bit = 1u32 << stream;
-        let lane = &self.lanes[stream];
-        let due = lane
-            .answers
-            .is_none_or(|request| self.lanes[request].done > lane.done);
-        if self.asked & bit != 0 {
-            let due = due && lane.answers.is_some();
-            self.unfinished = (self.unfinished & !bit) | if due { bit } else { 0 };
-        } else if due && self.unfinished & !self.offered & bit != 0 {
-            self.waiting |= bit;
+    /// Lets the answers to requests go on for which a request was taken.
+    fn release(&mut self, state: &mut State) {
+        for &(answer, request) in &self.pairs {
+            let bit = 1u32 << answer;
+            let due = self.lanes[request].done > self.lanes[answer].done;
+            if self.tabled & bit == 0 {
+                state.unfinished = (state.unfinished & !bit) | (u32::from(due) << answer);
+            } else if due && state.unfinished & !state.offered & bit != 0 {
+                state.waiting |= bit;
+            }
         }
     }
 
@@ -346,16 +358,15 @@ impl<'a> Run<'a> {
         if faulty != 0 {
             return Err(self.probe_fault(model, cycle, faulty.trailing_zeros() as usize));
         }
+        self.compared += u64::from(taken.count_ones());
         for number in bits(taken) {
             let lane = &mut self.probes[number];
-            lane.count(cycle);
-            self.compared += 1;
-            match lane.rest.next() {
-                Some(row) => {
-                    lane.row = row;
-                    self.rows.set(self.lanes.len() + number, row);
-                }
-                None => self.probes_exhausted |= 1 << number,
+            lane.done += 1;
+            lane.step();
+            if lane.rows.is_empty() {
+                self.probes_exhausted |= 1 << number;
+            } else {
+                self.rows.set(self.lanes.len() + number, lane.rows);
             }
         }
         Ok(())

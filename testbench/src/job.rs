@@ -45,10 +45,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Limits {
-        Limits {
-            watchdog: 5_000,
-            quiet: 64,
-        }
+        Limits { watchdog: 5_000, quiet: 64 }
     }
 }
 
@@ -112,11 +109,7 @@ impl Job<'_> {
     ) -> Result<(), JobError> {
         let count = |what, expected, found| match expected == found {
             true => Ok(()),
-            false => Err(JobError::Count {
-                what,
-                expected,
-                found,
-            }),
+            false => Err(JobError::Count { what, expected, found }),
         };
         count("static inputs", interface.statics.len(), self.statics.len())?;
         count("tables of streams", layout.streams.len(), self.tables.len())?;
@@ -129,17 +122,11 @@ impl Job<'_> {
         let watched = probes.iter().flat_map(|probe| &probe.unit.streams);
         let streams = interface.streams.iter().zip(self.tables);
         for (stream, table) in streams.chain(watched.zip(self.probes)) {
-            let (expected, found) = (
-                stream.fields.len(),
-                table.map_or(stream.fields.len(), Table::width),
-            );
+            let (expected, found) =
+                (stream.fields.len(), table.map_or(stream.fields.len(), Table::width));
             if expected != found {
                 let stream = stream.name.to_owned();
-                return Err(JobError::Width {
-                    stream,
-                    expected,
-                    found,
-                });
+                return Err(JobError::Width { stream, expected, found });
             }
         }
         let inputs = interface.streams.iter().zip(self.tables);

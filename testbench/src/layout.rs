@@ -18,10 +18,7 @@ pub struct Probe {
 impl Probe {
     /// Watches all streams of an instance.
     pub fn new(instance: impl Into<String>, unit: &Interface) -> Probe {
-        Probe {
-            instance: instance.into(),
-            unit: unit.clone(),
-        }
+        Probe { instance: instance.into(), unit: unit.clone() }
     }
 }
 
@@ -159,16 +156,8 @@ impl Layout {
     }
 
     fn add(&mut self, name: &str, bits: u32, direction: Direction) {
-        let suffix = if direction == Direction::Input {
-            "i"
-        } else {
-            "o"
-        };
-        self.signals.push(Signal {
-            name: format!("{name}_{suffix}"),
-            bits,
-            direction,
-        });
+        let suffix = if direction == Direction::Input { "i" } else { "o" };
+        self.signals.push(Signal { name: format!("{name}_{suffix}"), bits, direction });
     }
 
     fn add_stream(&mut self, stream: &Stream) -> StreamSignals {
@@ -180,18 +169,9 @@ impl Layout {
         self.add(&format!("{}_valid", stream.name), 1, stream.direction);
         self.add(&format!("{}_ready", stream.name), 1, opposite);
         for field in &stream.fields {
-            self.add(
-                &format!("{}_{}", stream.name, field.name),
-                field.bits,
-                stream.direction,
-            );
+            self.add(&format!("{}_{}", stream.name, field.name), field.bits, stream.direction);
         }
         let direction = stream.direction;
-        StreamSignals {
-            direction,
-            width: stream.fields.len(),
-            answers: None,
-            first,
-        }
+        StreamSignals { direction, width: stream.fields.len(), answers: None, first }
     }
 }

@@ -121,10 +121,7 @@ impl Library {
         probes: &[Probe],
         layout: Layout,
     ) -> Result<Library, LoadError> {
-        let at = |source| LoadError::Object {
-            path: path.to_owned(),
-            source,
-        };
+        let at = |source| LoadError::Object { path: path.to_owned(), source };
         // SAFETY: the object's initialisers are those of Verilator's runtime and the C++ library.
         let object = unsafe { Object::new(std::path::absolute(path).unwrap_or(path.to_owned())) }
             .map_err(at)?;
@@ -134,20 +131,12 @@ impl Library {
             CStr::from_ptr(key.map_err(at)?())
         };
         if found.to_bytes() != key.as_bytes() {
-            return Err(LoadError::Stale {
-                path: path.to_owned(),
-            });
+            return Err(LoadError::Stale { path: path.to_owned() });
         }
         // SAFETY: the key covers the text of the shim.
         let api = unsafe { Api::of(&object) }.map_err(at)?;
         let (interface, probes) = (interface.clone(), probes.to_vec());
-        Ok(Library(Arc::new(Loaded {
-            api,
-            interface,
-            probes,
-            layout,
-            _object: object,
-        })))
+        Ok(Library(Arc::new(Loaded { api, interface, probes, layout, _object: object })))
     }
 
     /// The module's interface.
@@ -171,6 +160,7 @@ static EMPTY_ROW: [u64; 256] = [0; 256];
 /// The row that each stream offers or expects: the module's streams first, then the probes'.
 pub(crate) struct Rows<'a> {
     pointers: Vec<*const u64>,
+    widths: Vec<usize>,
     own: Vec<Vec<u64>>,
     library: Library,
     rows: PhantomData<&'a [u64]>,
@@ -181,29 +171,17 @@ impl<'a> Rows<'a> {
     pub fn new(library: &Library) -> Rows<'a> {
         let layout = library.layout();
         let probed = layout.probed.iter().map(|(_, stream)| stream);
-        let own: Vec<Vec<u64>> = layout
-            .streams
-            .iter()
-            .chain(probed)
-            .map(|s| vec![0; s.width])
-            .collect();
-        assert!(
-            own.iter().all(|row| row.len() <= EMPTY_ROW.len()),
-            "a stream has too many fields"
-        );
-        let pointers = vec![EMPTY_ROW.as_ptr(); own.len()];
-        Rows {
-            pointers,
-            own,
-            library: library.clone(),
-            rows: PhantomData,
-        }
+        let widths: Vec<usize> = layout.streams.iter().chain(probed).map(|s| s.width).collect();
+        assert!(widths.iter().all(|&width| width <= EMPTY_ROW.len()), "too many fields");
+        let own = widths.iter().map(|&width| vec![0; width]).collect();
+        let pointers = vec![EMPTY_ROW.as_ptr(); widths.len()];
+        Rows { pointers, widths, own, library: library.clone(), rows: PhantomData }
     }
 
-    /// Sets the row of a stream.
+    /// Sets the row of a stream to the first words of a slice.
     #[inline]
     pub fn set(&mut self, stream: usize, row: &'a [u64]) {
-        assert!(row.len() >= self.own[stream].len(), "row too short");
+        assert!(row.len() >= self.widths[stream], "row too short");
         self.pointers[stream] = row.as_ptr();
     }
 
@@ -253,10 +231,8 @@ impl Model {
         let mut message = [0u8; 512];
         let start = |message: &[u8]| LoadError::Start {
             module: library.interface().module.to_owned(),
-            message: CStr::from_bytes_until_nul(message).map_or_else(
-                |_| String::new(),
-                |text| text.to_string_lossy().into_owned(),
-            ),
+            message: CStr::from_bytes_until_nul(message)
+                .map_or_else(|_| String::new(), |text| text.to_string_lossy().into_owned()),
         };
         let api = &library.0.api;
         // SAFETY: the buffer is as long as said and begins with a zero.
@@ -270,12 +246,8 @@ impl Model {
         let signals = (0..count)
             .map(|index| NonNull::new(unsafe { (api.signal)(handle.as_ptr(), index) }))
             .collect::<Option<Vec<_>>>();
-        let mut model = Model {
-            library: library.clone(),
-            handle,
-            signals: Vec::new(),
-            window: 0..0,
-        };
+        let mut model =
+            Model { library: library.clone(), handle, signals: Vec::new(), window: 0..0 };
         model.signals = signals.ok_or_else(|| start(b"a port has no address\0"))?;
         Ok(model)
     }
@@ -323,10 +295,7 @@ impl Model {
     pub fn port(&self, name: &str) -> Option<u64> {
         let layout = self.library.layout();
         let ports = &layout.signals[..layout.ports];
-        ports
-            .iter()
-            .position(|port| port.name == name)
-            .map(|index| self.peek(index))
+        ports.iter().position(|port| port.name == name).map(|index| self.peek(index))
     }
 
     /// Lets the model settle after ports were set.
@@ -358,15 +327,9 @@ impl Model {
     /// their rows, settles, and compares the outputs with theirs.
     #[inline]
     pub(crate) fn cycle(&mut self, time: u64, drive: u32, pokes: u32, rows: &Rows<'_>) -> Seen {
-        assert!(
-            Arc::ptr_eq(&rows.library.0, &self.library.0),
-            "rows of another model"
-        );
-        let (api, handle, rows) = (
-            &self.library.0.api,
-            self.handle.as_ptr(),
-            rows.pointers.as_ptr(),
-        );
+        assert!(Arc::ptr_eq(&rows.library.0, &self.library.0), "rows of another model");
+        let (api, handle, rows) =
+            (&self.library.0.api, self.handle.as_ptr(), rows.pointers.as_ptr());
         // SAFETY: there is a row for every stream of this model and each is long enough.
         let Pair { seen, wrong } = unsafe {
             if self.window.contains(&time) {
@@ -381,10 +344,7 @@ impl Model {
     /// Looks at the streams of the probes.
     #[inline]
     pub(crate) fn probe(&self, rows: &Rows<'_>) -> Seen {
-        assert!(
-            Arc::ptr_eq(&rows.library.0, &self.library.0),
-            "rows of another model"
-        );
+        assert!(Arc::ptr_eq(&rows.library.0, &self.library.0), "rows of another model");
         // SAFETY: as in `cycle`; nothing is changed.
         let Pair { seen, wrong } =
             unsafe { (self.library.0.api.probe)(self.handle.as_ptr(), rows.pointers.as_ptr()) };
@@ -403,10 +363,7 @@ impl Model {
     /// Opens a waveform file; cycles whose time is in `window` are written to it, until it is
     /// closed or the model dropped.
     pub(crate) fn trace_open(&mut self, path: &Path, window: Range<u64>) -> Result<(), TraceError> {
-        let error = |source| TraceError {
-            path: path.to_owned(),
-            source,
-        };
+        let error = |source| TraceError { path: path.to_owned(), source };
         std::fs::File::create(path).map_err(|source| error(Some(source)))?;
         let name = CString::new(path.as_os_str().as_bytes()).map_err(|_| error(None))?;
         // SAFETY: the handle lives, the name ends with a zero.
@@ -440,20 +397,11 @@ impl Model {
         beats: &[u64],
         limit: u64,
     ) -> u64 {
-        assert!(
-            gates.len().is_power_of_two(),
-            "stall patterns have a power of two as length"
-        );
+        assert!(gates.len().is_power_of_two(), "stall patterns have a power of two as length");
         let streams = &self.library.layout().streams;
-        assert_eq!(
-            beats.len(),
-            streams.len(),
-            "a number of beats for every stream"
-        );
-        let inputs = streams
-            .iter()
-            .zip(beats)
-            .filter(|(stream, _)| stream.direction == Direction::Input);
+        assert_eq!(beats.len(), streams.len(), "a number of beats for every stream");
+        let inputs =
+            streams.iter().zip(beats).filter(|(stream, _)| stream.direction == Direction::Input);
         let lengths = inputs.flat_map(|(stream, &beats)| std::iter::repeat_n(beats, stream.width));
         assert!(
             lengths.eq(columns.iter().map(|column| column.len() as u64)),

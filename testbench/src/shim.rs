@@ -39,15 +39,7 @@ pub(crate) fn head(files: &[String], key: &str) -> String {
     for file in files {
         let _ = writeln!(text, "#include \"{file}\"");
     }
-    let standard = [
-        "atomic",
-        "cstdarg",
-        "cstdio",
-        "cstring",
-        "memory",
-        "stdexcept",
-        "string",
-    ];
+    let standard = ["atomic", "cstdarg", "cstdio", "cstring", "memory", "stdexcept", "string"];
     for header in standard {
         let _ = writeln!(text, "#include <{header}>");
     }
@@ -108,11 +100,7 @@ fn bind(text: &mut String, interface: &Interface, probes: &[Probe], layout: &Lay
 }
 
 fn streams(layout: &Layout, direction: Direction) -> impl Iterator<Item = (usize, &StreamSignals)> {
-    layout
-        .streams
-        .iter()
-        .enumerate()
-        .filter(move |(_, stream)| stream.direction == direction)
+    layout.streams.iter().enumerate().filter(move |(_, stream)| stream.direction == direction)
 }
 
 fn poke(text: &mut String, layout: &Layout) {
@@ -125,11 +113,7 @@ fn poke(text: &mut String, layout: &Layout) {
         for field in 0..stream.width {
             let signal = &layout.signals[stream.field(field)];
             let mask = mask(signal);
-            let _ = writeln!(
-                text,
-                "        root->{} = row[{field}] & {mask};",
-                signal.name
-            );
+            let _ = writeln!(text, "        root->{} = row[{field}] & {mask};", signal.name);
         }
         text.push_str("    }\n");
     }
@@ -149,19 +133,15 @@ fn sense(text: &mut String, layout: &Layout) {
     text.push_str("inline uint64_t sense(const V___024root* root) {\n    uint64_t seen = 0;\n");
     for (bit, stream) in layout.streams.iter().enumerate() {
         let name = &layout.signals[stream.answered()].name;
-        let _ = writeln!(
-            text,
-            "    seen |= static_cast<uint64_t>(root->{name}) << {bit};"
-        );
+        let _ = writeln!(text, "    seen |= static_cast<uint64_t>(root->{name}) << {bit};");
     }
     text.push_str("    return seen;\n}\n\n");
 }
 
 /// C++ that is true where any field of a stream differs from `row`.
 fn differs(stream: &StreamSignals, value: impl Fn(usize) -> String) -> String {
-    let terms: Vec<String> = (0..stream.width)
-        .map(|i| format!("({} ^ row[{i}])", value(stream.field(i))))
-        .collect();
+    let terms: Vec<String> =
+        (0..stream.width).map(|i| format!("({} ^ row[{i}])", value(stream.field(i)))).collect();
     if terms.is_empty() {
         "false".to_owned()
     } else {
@@ -247,10 +227,7 @@ fn bench(text: &mut String, layout: &Layout) {
         );
         for field in 0..stream.width {
             let port = name(stream.field(field));
-            let _ = writeln!(
-                text,
-                "            top->{port} = columns[{column}][done{bit}];"
-            );
+            let _ = writeln!(text, "            top->{port} = columns[{column}][done{bit}];");
             column += 1;
         }
         let valid = name(stream.valid());
@@ -275,24 +252,13 @@ fn bench(text: &mut String, layout: &Layout) {
             ),
         };
     }
-    let _ = writeln!(
-        text,
-        "        top->{clock} = 1;\n        top->eval();\n        ++cycle;"
-    );
-    let done: Vec<String> = (0..layout.streams.len())
-        .map(|bit| format!("done{bit} >= beats[{bit}]"))
-        .collect();
-    let done = if done.is_empty() {
-        "false".to_owned()
-    } else {
-        done.join(" && ")
-    };
+    let _ = writeln!(text, "        top->{clock} = 1;\n        top->eval();\n        ++cycle;");
+    let done: Vec<String> =
+        (0..layout.streams.len()).map(|bit| format!("done{bit} >= beats[{bit}]")).collect();
+    let done = if done.is_empty() { "false".to_owned() } else { done.join(" && ") };
     let _ = writeln!(text, "        if ({done}) break;\n    }}");
     for stream in &layout.streams {
         let _ = writeln!(text, "    top->{} = 0;", name(stream.driven()));
     }
-    let _ = writeln!(
-        text,
-        "    top->{clock} = 0;\n    top->eval();\n    return cycle;\n}}"
-    );
+    let _ = writeln!(text, "    top->{clock} = 0;\n    top->eval();\n    return cycle;\n}}");
 }

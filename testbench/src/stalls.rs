@@ -47,9 +47,7 @@ impl Pattern {
 
     /// The pattern of that name.
     pub fn named(name: &str) -> Option<Pattern> {
-        Pattern::ALL
-            .into_iter()
-            .find(|pattern| pattern.name() == name)
+        Pattern::ALL.into_iter().find(|pattern| pattern.name() == name)
     }
 
     /// For every clock whether the stream may go on.
@@ -90,22 +88,14 @@ pub struct Stalls {
 
 impl Stalls {
     /// No stalls at all.
-    pub const NONE: Stalls = Stalls {
-        idle: Pattern::None,
-        back_pressure: Pattern::None,
-        seed: 0,
-    };
+    pub const NONE: Stalls = Stalls { idle: Pattern::None, back_pressure: Pattern::None, seed: 0 };
     /// Clocks after which the bits repeat: a power of two.
     pub const PERIOD: usize = 1 << 14;
 
     /// Every idle pattern with every back-pressure pattern.
     pub fn crossed(seed: u64) -> impl Iterator<Item = Stalls> {
         Pattern::ALL.into_iter().flat_map(move |idle| {
-            Pattern::ALL.into_iter().map(move |back_pressure| Stalls {
-                idle,
-                back_pressure,
-                seed,
-            })
+            Pattern::ALL.into_iter().map(move |back_pressure| Stalls { idle, back_pressure, seed })
         })
     }
 
@@ -114,11 +104,7 @@ impl Stalls {
     pub(crate) fn gates(&self, streams: usize, inputs: u32) -> Vec<u32> {
         let mut gates = vec![0u32; Stalls::PERIOD];
         for stream in 0..streams {
-            let pattern = if inputs >> stream & 1 == 1 {
-                self.idle
-            } else {
-                self.back_pressure
-            };
+            let pattern = if inputs >> stream & 1 == 1 { self.idle } else { self.back_pressure };
             let mut random = Rng::with_seed(self.seed.wrapping_mul(0x9e37_79b9) + stream as u64);
             let bits = pattern.bits(gates.len(), &mut random);
             for clock in bits.iter_ones() {
@@ -143,11 +129,7 @@ mod tests {
             (Pattern::Bursts, 0.42..0.58),
             (Pattern::Gaps, 0.85..0.93),
         ] {
-            let stalls = Stalls {
-                idle: pattern,
-                back_pressure: Pattern::None,
-                seed: 7,
-            };
+            let stalls = Stalls { idle: pattern, back_pressure: Pattern::None, seed: 7 };
             let gates = stalls.gates(2, 1);
             let go = gates.iter().filter(|gate| **gate & 1 == 1).count();
             let found = go as f64 / gates.len() as f64;

@@ -1,6 +1,6 @@
 //! What a run tells when it ends: the counts, or where and how it failed.
 
-use super::{Lane, Run};
+use super::{Lane, Run, State};
 use crate::layout::StreamSignals;
 use crate::model::{Model, Seen};
 use crate::outcome::{
@@ -10,9 +10,7 @@ use wheatstone_golden::interface::{Field, Interface};
 
 /// The fields of the beat on a stream's signals.
 pub(super) fn payload(model: &Model, stream: &StreamSignals) -> Vec<u64> {
-    (0..stream.width)
-        .map(|field| model.peek(stream.field(field)))
-        .collect()
+    (0..stream.width).map(|field| model.peek(stream.field(field))).collect()
 }
 
 fn differences(fields: &[Field], expected: &[u64], actual: &[u64]) -> Vec<Difference> {
@@ -21,11 +19,7 @@ fn differences(fields: &[Field], expected: &[u64], actual: &[u64]) -> Vec<Differ
         .iter()
         .zip(values)
         .filter(|(_, (expected, actual))| expected != actual)
-        .map(|(field, (&expected, &actual))| Difference {
-            field: field.clone(),
-            expected,
-            actual,
-        })
+        .map(|(field, (&expected, &actual))| Difference { field: field.clone(), expected, actual })
         .collect()
 }
 
@@ -39,7 +33,7 @@ fn mismatch(
 ) -> Outcome {
     let expected = match fault {
         Fault::Surplus => Vec::new(),
-        _ => lane.row.to_vec(),
+        _ => lane.row().to_vec(),
     };
     let differences = differences(fields, &expected, &actual);
     let beat = lane.done;
@@ -61,17 +55,14 @@ impl Run<'_> {
         &self,
         model: &Model,
         cycle: u64,
-        faulty: u32,
+        state: &State,
+        faulty: u64,
         seen: u32,
-        wrong: u64,
     ) -> Outcome {
         let library = model.library();
-        if wrong & Seen::STOPPED != 0 {
+        if faulty & Seen::STOPPED != 0 {
             let fault = Fault::Stopped(model.stopped().unwrap_or_default());
-            let place = Place {
-                instance: None,
-                stream: library.interface().module,
-            };
+            let place = Place { instance: None, stream: library.interface().module };
             return Outcome::Mismatch(Box::new(Mismatch {
                 fault,
                 place,
@@ -84,26 +75,19 @@ impl Run<'_> {
         }
         let number = faulty.trailing_zeros() as usize;
         let bit = 1u32 << number;
-        let fault = if self.held & !seen & bit != 0 {
+        let fault = if state.held & !seen & bit != 0 {
             Fault::Withdrawn
-        } else if self.exhausted & bit != 0 {
+        } else if state.exhausted & bit != 0 {
             Fault::Surplus
-        } else if self.held & bit != 0 {
+        } else if state.held & bit != 0 {
             Fault::Unstable
         } else {
             Fault::Value
         };
         let stream = &library.interface().streams[number];
-        let place = Place {
-            instance: None,
-            stream: stream.name,
-        };
+        let place = Place { instance: None, stream: stream.name };
         let actual = payload(model, &library.layout().streams[number]);
-        let fields = if fault == Fault::Withdrawn {
-            &[][..]
-        } else {
-            &stream.fields
-        };
+        let fields = if fault == Fault::Withdrawn { &[][..] } else { &stream.fields };
         mismatch(fault, place, &self.lanes[number], cycle, fields, actual)
     }
 
@@ -130,17 +114,9 @@ impl Run<'_> {
             ready: model.peek(signals.ready()) != 0,
         };
         let layout = library.layout();
-        let streams = library
-            .interface()
-            .streams
-            .iter()
-            .zip(&self.lanes)
-            .zip(&layout.streams);
+        let streams = library.interface().streams.iter().zip(&self.lanes).zip(&layout.streams);
         let own = streams.map(|((stream, lane), signals)| {
-            let place = Place {
-                instance: None,
-                stream: stream.name,
-            };
+            let place = Place { instance: None, stream: stream.name };
             state(place, stream.direction, lane, signals)
         });
         let probes = self.probes.iter().zip(&layout.probed).enumerate();
@@ -148,11 +124,7 @@ impl Run<'_> {
             state(probe(model, number).0, signals.direction, lane, signals)
         });
         let streams = own.chain(watched).collect();
-        Outcome::Hung(Box::new(Hung {
-            cycle,
-            waited,
-            streams,
-        }))
+        Outcome::Hung(Box::new(Hung { cycle, waited, streams }))
     }
 
     /// What is looked at when everything has drained: probes without their last beats, flags.
@@ -162,14 +134,7 @@ impl Run<'_> {
             let number = missing.trailing_zeros() as usize;
             let (place, _) = probe(model, number);
             let lane = &self.probes[number];
-            return Err(mismatch(
-                Fault::Missing,
-                place,
-                lane,
-                cycle,
-                &[],
-                Vec::new(),
-            ));
+            return Err(mismatch(Fault::Missing, place, lane, cycle, &[], Vec::new()));
         }
         let (interface, layout) = (model.library().interface(), model.library().layout());
         for (index, (field, &expected)) in interface.flags.iter().zip(flags).enumerate() {
@@ -179,17 +144,10 @@ impl Run<'_> {
                 let field = field.clone();
                 return Err(Outcome::Mismatch(Box::new(Mismatch {
                     fault: Fault::Flag,
-                    place: Place {
-                        instance: None,
-                        stream: field.name,
-                    },
+                    place: Place { instance: None, stream: field.name },
                     beat: 0,
                     cycle,
-                    differences: vec![Difference {
-                        field,
-                        expected,
-                        actual,
-                    }],
+                    differences: vec![Difference { field, expected, actual }],
                     expected: vec![expected],
                     actual: vec![actual],
                 })));
@@ -209,21 +167,12 @@ impl Run<'_> {
             accepted: lane.done,
             stalled: lane.stalled,
             idle: clocks.saturating_sub(lane.done + lane.stalled),
-            active: if lane.done > 0 {
-                lane.last + 1 - start
-            } else {
-                0
-            },
+            active: if lane.done > 0 { lane.last + 1 - start } else { 0 },
             first: (lane.done > 0).then_some(lane.first),
             last: (lane.done > 0).then_some(lane.last),
         });
         let streams = streams.collect();
-        Counts {
-            clocks,
-            simulated: end - start,
-            streams,
-            probed: self.compared,
-        }
+        Counts { clocks, simulated: end - start, streams, probed: self.compared }
     }
 }
 
@@ -232,14 +181,8 @@ fn probe(model: &Model, number: usize) -> (Place, &[Field]) {
     let library = model.library();
     let (owner, _) = library.layout().probed[number];
     let probe = &library.probes()[owner];
-    let before = library.layout().probed[..number]
-        .iter()
-        .filter(|(o, _)| *o == owner)
-        .count();
+    let before = library.layout().probed[..number].iter().filter(|(o, _)| *o == owner).count();
     let stream = &probe.unit.streams[before];
-    let place = Place {
-        instance: Some(probe.instance.clone()),
-        stream: stream.name,
-    };
+    let place = Place { instance: Some(probe.instance.clone()), stream: stream.name };
     (place, &stream.fields)
 }
