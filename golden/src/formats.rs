@@ -18,6 +18,9 @@ pub const SCALE_MIN: i64 = (2 * SCALE_ONE + FILTER_LIMIT as i64) / (2 * FILTER_L
 pub const DEPTH_BITS: u32 = 24;
 /// Largest depth value, also the value depth buffers are cleared to.
 pub const DEPTH_MAX: u32 = (1 << DEPTH_BITS) - 1;
+/// Integer bits of an interpolated attribute beyond its range, for the sign and for values
+/// extrapolated past the polygon.
+pub const GUARD_BITS: u32 = 5;
 /// Pixels by which anti-aliasing may widen a span on each side before a polygon is drawn
 /// monocular.
 pub const WIDENING_LIMIT: i64 = 32;
@@ -54,6 +57,8 @@ pub struct Formats {
     pub mask_bits: u32,
     /// Bits of a covered area, counted in samples.
     pub area_bits: u32,
+    /// Bits that the sampler carries: colour, and depth where it is sampled.
+    pub sample_bits: u32,
 }
 
 impl Formats {
@@ -70,7 +75,13 @@ impl Formats {
             guard_band: if wide { 1024 } else { 192 },
             mask_bits: if config.antialias { 16 } else { 1 },
             area_bits: if config.antialias { 5 } else { 1 },
+            sample_bits: if config.interpolated_depth { 32 } else { 32 + DEPTH_BITS },
         }
+    }
+
+    /// Formats of the minimal system, which always samples depth.
+    pub const fn minimal(config: &Config) -> Formats {
+        Formats { sample_bits: 32 + DEPTH_BITS, ..Formats::new(config) }
     }
 
     /// Subpixels in a pixel.
@@ -148,6 +159,26 @@ macro_rules! quantities {
     )*};
 }
 
+impl SampleData {
+    /// Colour and depth as the sampler carries them.
+    #[inline]
+    pub fn pack(rgba: Rgba, depth: Depth, formats: &Formats) -> SampleData {
+        SampleData::wrap(i64::from(rgba.word()) | (depth.raw() << 32), formats)
+    }
+
+    /// The colour.
+    #[inline]
+    pub fn rgba(self) -> Rgba {
+        Rgba::from_word(self.0 as u32)
+    }
+
+    /// The depth, 0 where it is not sampled.
+    #[inline]
+    pub fn depth(self, formats: &Formats) -> Depth {
+        Depth::new(self.raw() >> 32, formats)
+    }
+}
+
 quantities! {
     /// Secondary x (or y, with a tilted head) and the row shear, in pixels: signed 13.14 or 11.14;
     /// accumulators wrap.
@@ -170,16 +201,20 @@ quantities! {
     Slope(i32), true, 0, |f| f.slope_bits;
     /// The three highest dropped bits of an edge function, in eighths of its last place.
     LowBits(u8), false, 0, |_f| 3;
-    /// Interpolated depth: 24 bits, two guard bits and a 14-bit fraction; accumulators wrap.
-    DepthPlane(i64), true, FRACTION_BITS, |_f| DEPTH_BITS + 2 + FRACTION_BITS;
-    /// Interpolated colour channel: 8 bits, two guard bits and a 14-bit fraction; accumulators wrap.
-    ColourPlane(i32), true, FRACTION_BITS, |_f| 10 + FRACTION_BITS;
+    /// Interpolated depth: 24 bits, guard bits and a 14-bit fraction; accumulators wrap.
+    DepthPlane(i64), true, FRACTION_BITS, |_f| DEPTH_BITS + GUARD_BITS + FRACTION_BITS;
+    /// Interpolated colour channel: 8 bits, guard bits and a 14-bit fraction; accumulators wrap.
+    ColourPlane(i32), true, FRACTION_BITS, |_f| 8 + GUARD_BITS + FRACTION_BITS;
     /// Depth: 24 bits, 0 at the near plane, affine on the screen.
     Depth(u32), false, 0, |_f| DEPTH_BITS;
     /// Covered area in samples: 0 or 1, with anti-aliasing 0 to 16.
     Area(u8), false, 0, |f| f.area_bits;
     /// Coverage mask, one bit a sample, rows of four from the top; bit 0 is top left.
     Mask(u16), false, 0, |f| f.mask_bits;
+    /// What the sampler carries: colour lowest, above it depth where that is sampled.
+    SampleData(u64), false, 0, |f| f.sample_bits;
+    /// What goes beside a colour through blending: depth, write flag, keep flag.
+    Tag(u32), false, 0, |_f| DEPTH_BITS + 2;
     /// Number of pixels averaged by the filter: 0 to 29.
     Count(u8), false, 0, |_f| 5;
 }

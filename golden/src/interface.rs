@@ -9,6 +9,11 @@
 
 use crate::config::Config;
 use crate::formats::{Eye, Formats, Quantity, Rgba};
+use alloc::{
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
 
 /// How the bits of a field are to be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,9 +96,9 @@ macro_rules! quantity_bits {
             }
             #[inline]
             fn from_bits(bits: u64) -> Self {
-                // The widest quantity has 40 bits; the declared width is checked where values are made.
-                let wide = Formats::new(&Config::FULL);
-                Self::wrap(bits as i64, &wide)
+                // Widest formats: the declared width is checked where values are made.
+                const WIDEST: Formats = Formats::minimal(&Config::FULL);
+                Self::wrap(bits as i64, &WIDEST)
             }
             fn field(name: &'static str, doc: &'static str, formats: &Formats) -> Field {
                 let kind = Kind::Number { signed: Self::SIGNED, fraction: Self::FRACTION };
@@ -105,7 +110,7 @@ macro_rules! quantity_bits {
 
 quantity_bits! {
     SecondaryX Scale Slant PixelX Coordinate DisplayStep Move EdgeValue Slope LowBits DepthPlane
-    ColourPlane Depth Area Mask Count
+    ColourPlane Depth Area Mask Count SampleData Tag
 }
 
 impl Bits for bool {
@@ -181,6 +186,15 @@ pub trait Beat: Copy + 'static {
     fn read(row: &[u64]) -> Self;
 }
 
+/// The name without Rust's mark for a keyword.
+#[doc(hidden)]
+pub fn plain(name: &'static str) -> &'static str {
+    name.strip_prefix("r#").unwrap_or(name)
+}
+
+#[doc(hidden)]
+pub use alloc::{vec as rows, vec::Vec as Rows};
+
 /// Declares a beat: a struct and its [`Beat`] table in one place.
 #[macro_export]
 macro_rules! beat {
@@ -192,12 +206,12 @@ macro_rules! beat {
         }
 
         impl $crate::interface::Beat for $name {
-            fn fields(formats: &$crate::formats::Formats) -> Vec<$crate::interface::Field> {
-                vec![$(<$type as $crate::interface::Bits>::field(
-                    stringify!($field), concat!($($fdoc),+).trim_ascii(), formats),)*]
+            fn fields(formats: &$crate::formats::Formats) -> $crate::interface::Rows<$crate::interface::Field> {
+                $crate::interface::rows![$(<$type as $crate::interface::Bits>::field(
+                    $crate::interface::plain(stringify!($field)), concat!($($fdoc),+).trim_ascii(), formats),)*]
             }
             #[inline]
-            fn write(&self, row: &mut Vec<u64>) {
+            fn write(&self, row: &mut $crate::interface::Rows<u64>) {
                 $(row.push($crate::interface::Bits::to_bits(self.$field));)*
             }
             fn read(row: &[u64]) -> Self {
@@ -338,8 +352,8 @@ impl Table {
         &self.values
     }
 
-    /// Forgets all beats.
-    pub fn clear(&mut self) {
-        self.values.clear();
+    /// An empty table for the same beats.
+    pub fn emptied(&self) -> Table {
+        Table { masks: self.masks.clone(), values: Vec::new() }
     }
 }

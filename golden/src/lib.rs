@@ -10,11 +10,27 @@
 extern crate alloc;
 
 pub mod config;
+#[cfg(feature = "std")]
+pub mod direct;
 pub mod formats;
 #[cfg(feature = "std")]
+pub mod frame;
 pub mod interface;
 #[cfg(feature = "std")]
+pub mod picture;
 pub mod pipeline;
+#[cfg(feature = "std")]
+pub mod primary;
+#[cfg(feature = "std")]
+pub mod random;
+#[cfg(feature = "std")]
+pub mod record;
+#[cfg(feature = "std")]
+pub mod scene;
 pub mod setup;
+#[cfg(feature = "std")]
+pub mod stereo;
+#[cfg(feature = "std")]
+pub mod targets;
 #[cfg(feature = "std")]
 pub mod texture;

@@ -3,15 +3,20 @@
 //! A [`Builder`] makes a [`Library`] of a Verilog module, from its cache if nothing changed; a
 //! [`Bench`] is an instance of it and runs [`Job`]s: tables of beats for the inputs, tables of
 //! expected beats for the outputs, stall patterns. The [`Outcome`] is a pass with its counts,
-//! the first difference, or a model that hangs. [`waves`] makes the views of waveforms.
+//! the first difference, or a model that hangs. [`cases`] says what the targets are fed;
+//! [`memory`] stands beside a system; [`pack`] writes and checks vector packs.
 
 mod bench;
+pub mod cases;
 mod drive;
 mod job;
 mod layout;
+pub mod memory;
 mod model;
 mod outcome;
+pub mod pack;
 mod ports;
+pub mod settings;
 mod shim;
 mod sources;
 mod speed;

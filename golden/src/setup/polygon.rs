@@ -11,8 +11,8 @@ pub const MAX_VERTICES: usize = 6;
 pub struct Vertex {
     /// x for the left and the right eye, in subpixels.
     pub x: [i32; 2],
-    /// y, common to both eyes, in subpixels.
-    pub y: i32,
+    /// y for the left and the right eye, in subpixels; the same unless the head is tilted.
+    pub y: [i32; 2],
     /// Depth, 24 bits, 0 at the near plane; common to both eyes.
     pub depth: u32,
     /// Lit colour for the left and the right eye, alpha not applied.

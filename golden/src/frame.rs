@@ -1,0 +1,146 @@
+//! Frame buffers: what becomes of a pixel.
+
+use crate::formats::{Area, Coordinate, Depth, Eye, Formats, Quantity, Rgba, DEPTH_MAX};
+use crate::pipeline::blend::{factor, mix};
+use crate::pipeline::{Output, Pixel, Request, Response};
+
+/// Id of a place where nothing was drawn.
+pub const NO_ID: u32 = u32::MAX;
+
+/// Frame buffer of one eye: colour, depth and the id of the polygon drawn last.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Colours, row by row from the top.
+    pub colour: Vec<[u8; 3]>,
+    /// Depths, 24 bits.
+    pub depth: Vec<u32>,
+    /// Ids, [`NO_ID`] where nothing was drawn.
+    pub id: Vec<u32>,
+}
+
+impl Frame {
+    /// A cleared frame.
+    pub fn new(width: u32, height: u32, background: [u8; 3]) -> Frame {
+        let pixels = width as usize * height as usize;
+        Frame {
+            width,
+            height,
+            colour: vec![background; pixels],
+            depth: vec![DEPTH_MAX; pixels],
+            id: vec![NO_ID; pixels],
+        }
+    }
+
+    /// Position of a pixel in the vectors; none outside.
+    pub fn index(&self, x: i64, y: i64) -> Option<usize> {
+        let inside = (0..i64::from(self.width)).contains(&x) && (0..i64::from(self.height)).contains(&y);
+        inside.then(|| y as usize * self.width as usize + x as usize)
+    }
+
+    /// Draws an unblended fragment: depth test, blending, depth write.
+    #[inline]
+    pub fn draw(&mut self, index: usize, fragment: &Fragment, formats: &Formats) {
+        if fragment.depth >= self.depth[index] {
+            return;
+        }
+        let t = factor(fragment.rgba.0[3], fragment.area, formats);
+        let behind = self.colour[index];
+        self.colour[index] = core::array::from_fn(|n| mix(fragment.rgba.0[n], behind[n], t));
+        if t > 0 {
+            self.id[index] = fragment.id;
+        }
+        if fragment.write {
+            self.depth[index] = fragment.depth;
+        }
+    }
+}
+
+/// An unblended pixel of one polygon.
+#[derive(Clone, Copy, Debug)]
+pub struct Fragment {
+    /// Colour and alpha.
+    pub rgba: Rgba,
+    /// Covered samples.
+    pub area: Area,
+    /// Depth.
+    pub depth: u32,
+    /// Whether the depth is to be written.
+    pub write: bool,
+    /// Id of the polygon.
+    pub id: u32,
+}
+
+/// The frame buffers of both eyes, as a system's output streams fill them.
+#[derive(Clone, Debug)]
+pub struct Frames {
+    /// Left and right frame.
+    pub eyes: [Frame; 2],
+    /// Id given to the pixels written next.
+    pub id: u32,
+    /// Pixels that arrived for each eye.
+    pub written: [u64; 2],
+    /// Reads that were answered.
+    pub reads: u64,
+    /// Depth of secondary pixels was tested by the system.
+    tested: bool,
+    formats: Formats,
+}
+
+impl Frames {
+    /// Cleared frames for displays of this size. `tested`: blended pixels have passed the depth
+    /// test already.
+    pub fn new(size: [u32; 2], background: [u8; 3], tested: bool, formats: Formats) -> Frames {
+        let frame = Frame::new(size[0], size[1], background);
+        let eyes = [frame.clone(), frame];
+        Frames { eyes, id: NO_ID, written: [0; 2], reads: 0, tested, formats }
+    }
+
+    /// What a read returns; 0 outside the display.
+    pub fn fetch(&self, eye: Eye, x: Coordinate, y: Coordinate) -> Response {
+        let frame = &self.eyes[eye as usize];
+        match frame.index(x.raw(), y.raw()) {
+            Some(index) => Response {
+                rgb: frame.colour[index],
+                depth: Depth::new(frame.depth[index].into(), &self.formats),
+            },
+            None => Response::default(),
+        }
+    }
+
+    /// Applies a pixel.
+    #[inline]
+    pub fn apply(&mut self, pixel: &Pixel) {
+        self.written[pixel.eye as usize] += 1;
+        let frame = &mut self.eyes[pixel.eye as usize];
+        let Some(index) = frame.index(pixel.x.raw(), pixel.y.raw()) else { return };
+        let depth = pixel.depth.raw() as u32;
+        if !pixel.blended {
+            let (rgba, area, write, id) = (pixel.rgba, pixel.area, pixel.write, self.id);
+            frame.draw(index, &Fragment { rgba, area, depth, write, id }, &self.formats);
+            return;
+        }
+        if self.tested || depth < frame.depth[index] {
+            frame.colour[index] = pixel.rgba.rgb();
+            frame.id[index] = self.id;
+            if pixel.write {
+                frame.depth[index] = depth;
+            }
+        }
+    }
+}
+
+impl Output for Frames {
+    #[inline]
+    fn read(&mut self, request: &Request) -> Response {
+        self.reads += 1;
+        self.fetch(request.eye, request.x, request.y)
+    }
+    #[inline]
+    fn write(&mut self, _: Eye, pixel: &Pixel) {
+        self.apply(pixel);
+    }
+}

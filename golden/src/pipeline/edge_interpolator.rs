@@ -1,0 +1,167 @@
+//! Edge interpolator: a function linear over whole secondary pixels (paper, sections 5.1 and 5.3).
+//!
+//! Three of them follow the edge functions; the same unit with other widths follows depth and the
+//! colour planes.
+
+use super::Op;
+use crate::beat;
+use crate::formats::*;
+use crate::interface::Beat;
+
+/// Beats of an interpolant with a value and a coefficient type of its own.
+macro_rules! interpolant {
+    ($beat:ident, $output:ident, $value:ty, $slope:ty) => {
+        beat! {
+            /// A primary beat as the interpolator sees it.
+            pub struct $beat {
+                /// what to do
+                op: Op,
+                /// the state after this beat becomes the row start
+                save: bool,
+                /// move one pixel to the right (at a ROW: one more than its whole part)
+                r#move: bool,
+                /// move down, -1, 0 or 1 pixels (TILT)
+                y_move: Move,
+                /// value to start from (LOAD)
+                start: $value,
+                /// change for one pixel to the right (LOAD)
+                a: $slope,
+                /// change for one pixel down (LOAD, ANTIALIAS or TILT)
+                b: $slope,
+                /// change from row start to row start (LOAD)
+                row: $value,
+                /// dropped bits (LOAD, ANTIALIAS)
+                low: LowBits,
+            }
+        }
+
+        beat! {
+            /// The interpolant at a secondary pixel.
+            pub struct $output {
+                /// value at the pixel
+                value: $value,
+                /// change for one pixel to the right
+                a: $slope,
+                /// change for one pixel down
+                b: $slope,
+                /// dropped bits
+                low: LowBits,
+            }
+        }
+
+        impl Interpolant for $beat {
+            type Output = $output;
+            #[inline]
+            fn fields(&self) -> Step {
+                Step {
+                    op: self.op,
+                    save: self.save,
+                    right: self.r#move.into(),
+                    down: self.y_move.raw(),
+                    start: self.start.raw(),
+                    a: self.a.raw(),
+                    b: self.b.raw(),
+                    row: self.row.raw(),
+                    low: self.low,
+                }
+            }
+            #[inline]
+            fn bits(formats: &Formats) -> u32 {
+                <$value>::bits(formats)
+            }
+            #[inline]
+            fn output(value: i64, a: i64, b: i64, low: LowBits, f: &Formats) -> $output {
+                $output { value: <$value>::new(value, f), a: <$slope>::new(a, f), b: <$slope>::new(b, f), low }
+            }
+        }
+    };
+}
+
+/// The numbers of a beat, whatever their types.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    op: Op,
+    save: bool,
+    right: i64,
+    down: i64,
+    start: i64,
+    a: i64,
+    b: i64,
+    row: i64,
+    low: LowBits,
+}
+
+/// Beats that an [`EdgeInterpolator`] can take.
+pub trait Interpolant: Beat {
+    /// What comes out.
+    type Output: Beat;
+    #[doc(hidden)]
+    fn fields(&self) -> Step;
+    #[doc(hidden)]
+    fn bits(formats: &Formats) -> u32;
+    #[doc(hidden)]
+    fn output(value: i64, a: i64, b: i64, low: LowBits, formats: &Formats) -> Self::Output;
+}
+
+interpolant!(EdgeBeat, EdgeOutput, EdgeValue, Slope);
+interpolant!(DepthBeat, DepthOutput, DepthPlane, DepthPlane);
+interpolant!(ColourBeat, ColourOutput, ColourPlane, ColourPlane);
+
+/// State of an interpolator for beats `B`.
+#[derive(Clone, Debug)]
+pub struct EdgeInterpolator<B> {
+    formats: Formats,
+    keep_b: bool,
+    keep_low: bool,
+    tilt: bool,
+    value: i64,
+    saved: i64,
+    a: i64,
+    b: i64,
+    row: i64,
+    low: LowBits,
+    beat: core::marker::PhantomData<B>,
+}
+
+impl<B: Interpolant> EdgeInterpolator<B> {
+    /// An interpolator; `b` and `low` are kept only where the build needs them.
+    pub fn new(formats: Formats, tilt: bool) -> EdgeInterpolator<B> {
+        EdgeInterpolator {
+            formats,
+            keep_b: tilt || formats.mask_bits > 1,
+            keep_low: formats.mask_bits > 1,
+            tilt,
+            value: 0,
+            saved: 0,
+            a: 0,
+            b: 0,
+            row: 0,
+            low: LowBits::default(),
+            beat: core::marker::PhantomData,
+        }
+    }
+
+    /// Takes a beat.
+    #[inline]
+    pub fn step(&mut self, beat: &B) -> B::Output {
+        let step = beat.fields();
+        let movement = step.right * self.a + if self.tilt { step.down * self.b } else { 0 };
+        let sum = match step.op {
+            Op::Load => {
+                self.a = step.a;
+                self.b = if self.keep_b { step.b } else { 0 };
+                self.row = step.row;
+                self.low = if self.keep_low { step.low } else { LowBits::default() };
+                step.start
+            }
+            Op::Row => self.saved + self.row + movement,
+            Op::Step | Op::Reserved => self.value + movement,
+        };
+        self.value = reduce(sum, B::bits(&self.formats), true);
+        if step.save {
+            self.saved = self.value;
+        }
+        B::output(self.value, self.a, self.b, self.low, &self.formats)
+    }
+}

@@ -1,0 +1,84 @@
+//! Filter: average of the primary pixels in a secondary pixel (paper, section 5.6.1).
+
+use super::filter_tables::{reciprocal, THREE_TERM, TWO_TERM};
+use crate::beat;
+use crate::config::{Config, Division};
+use crate::formats::*;
+
+beat! {
+    /// What the filter sees of a beat.
+    pub struct FilterBeat {
+        /// the beat opens a secondary pixel
+        first: bool,
+        /// the beat is the last in its secondary pixel
+        end: bool,
+        /// the beat's colour counts
+        include: bool,
+        /// colour
+        rgba: Rgba,
+    }
+}
+
+beat! {
+    /// The average of a secondary pixel.
+    pub struct FilterPixel {
+        /// average colour, 0 if nothing was averaged
+        rgba: Rgba,
+        /// number of colours averaged
+        count: Count,
+    }
+}
+
+/// State of the filter.
+#[derive(Clone, Debug)]
+pub struct Filter {
+    division: Division,
+    formats: Formats,
+    sum: [u32; 4],
+    count: u32,
+}
+
+impl Filter {
+    /// A filter with the division of a configuration.
+    pub fn new(config: &Config) -> Filter {
+        Filter { division: config.division, formats: Formats::new(config), sum: [0; 4], count: 0 }
+    }
+
+    /// Takes a beat; gives the average of the pixel it ends.
+    #[inline]
+    pub fn step(&mut self, beat: &FilterBeat) -> Option<FilterPixel> {
+        if beat.first {
+            self.sum = [0; 4];
+            self.count = 0;
+        }
+        if beat.include && self.count < FILTER_LIMIT {
+            for (sum, channel) in self.sum.iter_mut().zip(beat.rgba.0) {
+                *sum += u32::from(channel);
+            }
+            self.count += 1;
+        }
+        beat.end.then(|| FilterPixel {
+            rgba: Rgba(self.sum.map(|sum| divide(self.division, sum, self.count))),
+            count: Count::new(self.count.into(), &self.formats),
+        })
+    }
+}
+
+/// `sum` of `n` bytes divided by `n` (0 to 29), as the hardware divides.
+pub fn divide(division: Division, sum: u32, n: u32) -> u8 {
+    if n == 0 {
+        return 0;
+    }
+    let quotient = match division {
+        Division::TwoTerm => {
+            let (p, q) = TWO_TERM[n as usize];
+            ((sum << (8 - p)) + (sum << (8 - q)) + 128) >> 8
+        }
+        Division::ThreeTerm => {
+            let (p, q, r) = THREE_TERM[n as usize];
+            ((sum << (11 - p)) + (sum << (11 - q)) + (sum << (11 - r)) + 1024) >> 11
+        }
+        Division::Exact => ((u64::from(sum + n / 2) * u64::from(reciprocal(n))) >> 18) as u32,
+    };
+    quotient.min(255) as u8
+}

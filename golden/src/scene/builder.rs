@@ -1,0 +1,296 @@
+//! From meshes to polygons: lighting, clipping, culling, projection and snapping.
+//!
+//! 1. Corners are lit for each eye, from the side that is seen.
+//! 2. Polygons are cut at the near and far planes, in space. What is left and has a corner above
+//!    or below the guard band is cut there too, alike for both eyes.
+//! 3. A polygon that still leaves the guard band in either view is cut for each eye alone, and
+//!    goes on as one polygon an eye.
+//! 4. Corners are snapped. Culling looks at the snapped polygon of each eye.
+//! 5. Polygons that were cut go on as fans of triangles with the same id; so do polygons of more
+//!    than three corners that snapping made concave.
+
+use super::clip::{clip_all, Corner};
+use super::geometry::{Counts, Cull, Geometry, Options};
+use super::mesh::Mesh;
+use super::rig::{Camera, HalfSpace, Snapped};
+use super::shading::Shading;
+use super::Scene;
+use crate::formats::{Eye, Formats, Rgba};
+use crate::setup::{Eyes, Polygon, Vertex};
+use crate::texture::Texture;
+
+/// What the polygons of a mesh have in common.
+#[derive(Clone, Copy)]
+struct Surface {
+    id: u32,
+    texture: Option<u32>,
+}
+
+/// Collects the polygons of a scene.
+pub(super) struct Builder<'a> {
+    scene: &'a Scene,
+    options: &'a Options,
+    camera: Camera,
+    depth_planes: [HalfSpace; 2],
+    window_planes: [[HalfSpace; 4]; 2],
+    /// Smallest and largest coordinate in the guard band, in subpixels, across and down.
+    band: [[i64; 2]; 2],
+    /// Size of a view in subpixels.
+    size: [i64; 2],
+    opaque: Vec<Polygon>,
+    translucent: Vec<Polygon>,
+    counts: Counts,
+}
+
+impl<'a> Builder<'a> {
+    /// No polygons yet.
+    pub fn new(scene: &'a Scene, formats: &Formats, options: &'a Options) -> Builder<'a> {
+        let camera = Camera::new(scene.rig, scene.width, scene.height, formats);
+        let one = formats.one_pixel();
+        let size = [scene.width, scene.height].map(|n| i64::from(n) * one);
+        let guard = i64::from(formats.guard_band) * one;
+        Builder {
+            scene,
+            options,
+            camera,
+            depth_planes: camera.depth_planes(),
+            window_planes: Eye::BOTH.map(|eye| camera.window_planes(eye)),
+            band: size.map(|n| [-guard, n + guard]),
+            size,
+            opaque: Vec::new(),
+            translucent: Vec::new(),
+            counts: Counts::default(),
+        }
+    }
+
+    /// The polygons in order.
+    pub fn finish(mut self) -> Geometry {
+        // 60 / n is whole for every number of corners.
+        let far = |p: &Polygon| {
+            let sum: u64 = p.vertices.iter().map(|v| u64::from(v.depth)).sum();
+            core::cmp::Reverse(sum * 60 / p.vertices.len() as u64)
+        };
+        self.translucent.sort_by_key(far);
+        self.opaque.append(&mut self.translucent);
+        self.counts.polygons = self.opaque.len();
+        let [r, g, b] = self.scene.background;
+        Geometry {
+            width: self.scene.width,
+            height: self.scene.height,
+            background: Rgba([r, g, b, 255]),
+            polygons: self.opaque,
+            textures: self.scene.textures.clone(),
+            counts: self.counts,
+        }
+    }
+
+    /// Adds a mesh whose ids begin at `first_id`.
+    pub fn mesh(&mut self, mesh: &Mesh, first_id: u32) {
+        let scene = self.scene;
+        let material = &scene.materials[mesh.material as usize];
+        let texture = material.texture.filter(|_| !mesh.texture_coordinates.is_empty());
+        let mut shading = Shading::new(scene, mesh);
+        self.counts.triangles += mesh.triangles.len();
+        self.counts.faces += mesh.faces.len();
+        for (n, triangle) in mesh.triangles.iter().enumerate() {
+            let colours = shading.triangle(n);
+            let texels = self.texels(mesh, triangle, texture);
+            let corners = [0, 1, 2].map(|k| Corner {
+                position: mesh.positions[triangle[k] as usize],
+                colour: colours[k],
+                texel: texels[k],
+            });
+            let id = first_id + mesh.triangle_ids.get(n).copied().unwrap_or(n as u32);
+            self.polygon(corners.to_vec(), Surface { id, texture });
+        }
+        let first_face = first_id + mesh.triangle_id_count() as u32;
+        for (n, face) in mesh.faces.iter().enumerate() {
+            let colour = shading.face(n);
+            let corner =
+                |&k: &u32| Corner { position: mesh.positions[k as usize], colour, texel: [0.0; 2] };
+            let id = first_face + n as u32;
+            self.polygon(face.iter().map(corner).collect(), Surface { id, texture: None });
+        }
+    }
+
+    /// Texture coordinates in texels, moved by whole repeats to near zero.
+    fn texels(&self, mesh: &Mesh, triangle: &[u32; 3], texture: Option<u32>) -> [[f64; 2]; 3] {
+        let Some(texture) = texture else {
+            return [[0.0; 2]; 3];
+        };
+        let Texture { width, height, .. } = self.scene.textures[texture as usize];
+        let corners = triangle.map(|n| mesh.texture_coordinates[n as usize]);
+        let first = [0, 1].map(|k| corners.iter().fold(f64::MAX, |m, c| m.min(c[k])).floor());
+        let size = [f64::from(width), f64::from(height)];
+        corners.map(|c| [0, 1].map(|k| (c[k] - first[k]) * size[k]))
+    }
+
+    fn polygon(&mut self, mut corners: Vec<Corner>, surface: Surface) {
+        let inside = |c: &Corner| self.depth_planes.iter().all(|p| p.at(c.position) >= 0.0);
+        let mut cut = false;
+        if !corners.iter().all(inside) {
+            cut = true;
+            corners = clip_all(corners, &self.depth_planes);
+        }
+        let mut points = self.snap(&corners);
+        if self.camera.is_level() && !points.iter().all(|p| self.in_band(p, Eye::Left, 1)) {
+            cut = true;
+            corners = clip_all(corners, &self.window_planes[0][2..]);
+            points = self.snap(&corners);
+        }
+        if corners.is_empty() {
+            self.counts.outside += 1;
+            return;
+        }
+        self.counts.clipped += usize::from(cut);
+        let fits = |p: &Snapped| {
+            Eye::BOTH.iter().all(|&eye| self.in_band(p, eye, 0) && self.in_band(p, eye, 1))
+        };
+        if points.iter().all(fits) {
+            self.binocular(&corners, &points, cut, surface);
+        } else {
+            self.guard_band(&corners, surface);
+        }
+    }
+
+    fn snap(&self, corners: &[Corner]) -> Vec<Snapped> {
+        corners.iter().map(|c| self.camera.snap(c.position)).collect()
+    }
+
+    fn in_band(&self, point: &Snapped, eye: Eye, axis: usize) -> bool {
+        let [low, high] = self.band[axis];
+        let n = if axis == 0 { point.x } else { point.y }[eye as usize];
+        low <= n && n <= high
+    }
+
+    /// A polygon within the guard band of both views.
+    fn binocular(&mut self, corners: &[Corner], points: &[Snapped], cut: bool, surface: Surface) {
+        let culled = Eye::BOTH.map(|eye| self.is_culled(points, eye));
+        let eyes = match culled {
+            [false, false] => Eyes::Both,
+            [false, true] => Eyes::One(Eye::Left),
+            [true, false] => Eyes::One(Eye::Right),
+            [true, true] => {
+                self.counts.culled += 1;
+                return;
+            }
+        };
+        self.counts.half_culled += usize::from(eyes != Eyes::Both);
+        let whole = points.len() == 3
+            || (!cut && Eye::BOTH.iter().all(|&eye| !eyes.contains(eye) || is_convex(points, eye)));
+        let base = Polygon { id: surface.id, eyes, texture: surface.texture, ..Polygon::default() };
+        self.emit(corners, points, whole, &base);
+    }
+
+    /// A polygon that leaves the guard band: cut and drawn for each eye alone.
+    fn guard_band(&mut self, corners: &[Corner], surface: Surface) {
+        self.counts.guard_band += 1;
+        let mut culled = 0;
+        for eye in Eye::BOTH {
+            let corners = clip_all(corners.to_vec(), &self.window_planes[eye as usize]);
+            let mut points = self.snap(&corners);
+            for point in &mut points {
+                // Rounding may leave a corner a subpixel outside. The other eye is not concerned.
+                let [x, y] = [(point.x, 0), (point.y, 1)]
+                    .map(|(n, axis)| n[eye as usize].clamp(self.band[axis][0], self.band[axis][1]));
+                *point = Snapped { x: [x; 2], y: [y; 2] };
+            }
+            if points.is_empty() {
+                self.counts.outside += 1;
+            } else if self.is_culled(&points, eye) {
+                culled += 1;
+            } else {
+                let base = Polygon {
+                    id: surface.id,
+                    eyes: Eyes::One(eye),
+                    texture: surface.texture,
+                    guard_band: true,
+                    ..Polygon::default()
+                };
+                self.emit(&corners, &points, points.len() == 3, &base);
+            }
+        }
+        self.counts.half_culled += usize::from(culled == 1);
+        self.counts.culled += usize::from(culled == 2);
+    }
+
+    fn is_culled(&self, points: &[Snapped], eye: Eye) -> bool {
+        self.options.cull == Cull::Back && doubled_area(points, eye) <= 0
+    }
+
+    /// Hands on a polygon, whole or as a fan of triangles.
+    fn emit(&mut self, corners: &[Corner], points: &[Snapped], whole: bool, base: &Polygon) {
+        if whole {
+            return self.piece(corners, points, base);
+        }
+        for k in 1..corners.len() - 1 {
+            let fan = [0, k, k + 1];
+            self.piece(&fan.map(|n| corners[n]), &fan.map(|n| points[n]), base);
+        }
+    }
+
+    fn piece(&mut self, corners: &[Corner], points: &[Snapped], base: &Polygon) {
+        let eyes = || Eye::BOTH.into_iter().filter(|&eye| base.eyes.contains(eye));
+        if eyes().all(|eye| doubled_area(points, eye) == 0) {
+            self.counts.empty += 1;
+            return;
+        }
+        if eyes().all(|eye| self.is_outside(points, eye)) {
+            self.counts.outside += 1;
+            return;
+        }
+        let distances = corners.iter().map(|c| self.camera.distance(c.position));
+        let nearest = distances.fold(f64::MAX, f64::min);
+        let vertices = corners.iter().zip(points).map(|(c, p)| self.vertex(c, p, nearest));
+        let mut polygon = Polygon { vertices: vertices.collect(), ..base.clone() };
+        polygon.specular = polygon.vertices.iter().any(|v| {
+            let [Rgba(left), Rgba(right)] = v.colour;
+            left.iter().zip(right).any(|(l, r)| l.abs_diff(r) > self.options.specular_threshold)
+        });
+        let opaque = polygon.vertices.iter().all(|v| v.colour[0].0[3] == 255);
+        if opaque { &mut self.opaque } else { &mut self.translucent }.push(polygon);
+    }
+
+    /// Whether a polygon lies beside a view.
+    fn is_outside(&self, points: &[Snapped], eye: Eye) -> bool {
+        let beside = |place: fn(&Snapped) -> [i64; 2], size: i64| {
+            points.iter().all(|p| place(p)[eye as usize] <= 0)
+                || points.iter().all(|p| place(p)[eye as usize] >= size)
+        };
+        beside(|p| p.x, self.size[0]) || beside(|p| p.y, self.size[1])
+    }
+
+    fn vertex(&self, corner: &Corner, point: &Snapped, nearest: f64) -> Vertex {
+        let inverse = f64::from(1 << 24) * nearest / self.camera.distance(corner.position);
+        Vertex {
+            x: point.x.map(|n| n as i32),
+            y: point.y.map(|n| n as i32),
+            depth: self.camera.depth(corner.position),
+            colour: corner.colour.map(|c| Rgba(c.map(|n| n.round_ties_even() as u8))),
+            texel: corner.texel.map(|n| (n * 256.0).round_ties_even() as i32),
+            inverse: inverse.round_ties_even() as u32,
+        }
+    }
+}
+
+/// Twice the area of a polygon as an eye sees it, positive if counter-clockwise.
+fn doubled_area(points: &[Snapped], eye: Eye) -> i64 {
+    let at = |k: usize| (points[k].x[eye as usize], points[k].y[eye as usize]);
+    let (x0, y0) = at(0);
+    (1..points.len() - 1)
+        .map(|k| {
+            let ((x1, y1), (x2, y2)) = (at(k), at(k + 1));
+            // Rows go downward, so this is the mathematical area with its sign turned.
+            (x2 - x0) * (y1 - y0) - (x1 - x0) * (y2 - y0)
+        })
+        .sum()
+}
+
+/// Whether no corner lies on the wrong side of any edge.
+fn is_convex(points: &[Snapped], eye: Eye) -> bool {
+    let sign = doubled_area(points, eye).signum();
+    (0..points.len()).all(|k| {
+        let edge = [points[k], points[(k + 1) % points.len()]];
+        points.iter().all(|&p| doubled_area(&[edge[0], edge[1], p], eye).signum() * sign >= 0)
+    })
+}

@@ -1,0 +1,109 @@
+//! The built-in scenes.
+//!
+//! `teapot` and `room` are pictures to look at, in centimetres in front of a screen of at least
+//! 32 × 24 cm. The others are small and each show one thing; their lengths are pixels of a
+//! 640 × 480 picture, scaled with the size, except in `ties`, where they are pixels at any size.
+
+mod diagnostic;
+mod edges;
+mod paint;
+mod room;
+mod shapes;
+mod teapot;
+
+use super::error::{check_size, SceneError, SIZE_LIMIT};
+use super::{Rig, Scene};
+
+pub use teapot::{teapot, DEFAULT_LEVEL};
+
+/// A scene made in code.
+#[derive(Clone, Copy, Debug)]
+pub struct Builtin {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub description: &'static str,
+    build: fn(u32, u32) -> Scene,
+}
+
+/// All built-in scenes.
+pub const SCENES: [Builtin; 9] = [
+    Builtin {
+        name: "teapot",
+        description: "the Utah teapot, from its 32 patches: 6,320 smooth, glossy triangles",
+        build: teapot::scene,
+    },
+    Builtin {
+        name: "room",
+        description:
+            "a textured room with glossy and mirroring things before and behind the screen",
+        build: room::scene,
+    },
+    Builtin {
+        name: "ramp",
+        description:
+            "bars from 32 pixels of crossed to 32 of uncrossed disparity, and a floor through both",
+        build: diagnostic::ramp,
+    },
+    Builtin {
+        name: "ratio",
+        description: "panels turned so that G1 runs from 1 to 1/29, past it, to 0 and below",
+        build: diagnostic::ratio,
+    },
+    Builtin {
+        name: "slivers",
+        description: "thin triangles, upright, flat and radial, from 4 pixels down to 1/16",
+        build: diagnostic::slivers,
+    },
+    Builtin {
+        name: "exclusive",
+        description: "wedges and columns with faces that one eye sees and the other does not",
+        build: edges::exclusive,
+    },
+    Builtin {
+        name: "ties",
+        description: "corners and edges on pixel centres, and surfaces of equal depth",
+        build: edges::ties,
+    },
+    Builtin {
+        name: "polygons",
+        description: "flat convex polygons of four, five and six corners, turned and tilted",
+        build: diagnostic::polygons,
+    },
+    Builtin {
+        name: "windows",
+        description:
+            "polygons that leave the windows, the guard bands and the near plane on all sides",
+        build: edges::windows,
+    },
+];
+
+/// Makes a built-in scene for views of this size.
+pub fn scene(name: &str, width: u32, height: u32) -> Result<Scene, SceneError> {
+    let builtin = SCENES.iter().find(|s| s.name == name).ok_or_else(|| SceneError::Unknown {
+        name: name.into(),
+        builtin: SCENES.iter().map(|s| s.name).collect(),
+    })?;
+    check_size(width, height, SIZE_LIMIT)?;
+    Ok((builtin.build)(width, height))
+}
+
+/// An empty scene of which 32 × 24 cm of screen are in view.
+fn desk(width: u32, height: u32) -> Scene {
+    let pixels_per_unit = (f64::from(width) / 32.0).min(f64::from(height) / 24.0);
+    Scene { width, height, rig: Rig { pixels_per_unit, ..Rig::default() }, ..Scene::default() }
+}
+
+/// An empty unlit scene in units that are pixels of a 640 × 480 picture, with the eyes this far
+/// apart, 640 units from the screen.
+fn chart(width: u32, height: u32, eye_separation: f64) -> Scene {
+    let pixels_per_unit = (f64::from(width) / 640.0).min(f64::from(height) / 480.0);
+    Scene {
+        width,
+        height,
+        rig: Rig { pixels_per_unit, eye_separation, viewing_distance: 640.0, ..Rig::default() },
+        background: [24, 26, 32],
+        materials: vec![super::Material::default()],
+        ..Scene::default()
+    }
+}

@@ -1,0 +1,126 @@
+//! What can be wrong with a scene, and where.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Largest magnitude of a coordinate or rig value; beyond it doubles no longer resolve subpixels.
+pub const COORDINATE_LIMIT: f64 = 1e9;
+/// Largest width and height of a view that any configuration draws, in pixels.
+pub const SIZE_LIMIT: u32 = 2048;
+/// Most triangles and faces of a scene: id pictures hold one more than an id in 24 bits.
+pub const ID_LIMIT: usize = (1 << 24) - 1;
+
+/// A wrong value in an input file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{}: {field}: expected {expected}, found {found}", .file.display(), Line(*.line))]
+pub struct InputError {
+    /// The file.
+    pub file: PathBuf,
+    /// Line in the file, from 1, where it is known.
+    pub line: Option<usize>,
+    /// What the value is, in the file's own words.
+    pub field: String,
+    /// What is allowed.
+    pub expected: String,
+    /// What is there.
+    pub found: String,
+}
+
+struct Line(Option<usize>);
+
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |line| write!(f, ":{line}"))
+    }
+}
+
+impl InputError {
+    /// An error at a line of a file.
+    pub fn new(
+        file: &Path,
+        line: impl Into<Option<usize>>,
+        field: impl Into<String>,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> InputError {
+        InputError {
+            file: file.to_owned(),
+            line: line.into(),
+            field: field.into(),
+            expected: expected.into(),
+            found: found.into(),
+        }
+    }
+}
+
+/// A rig that nothing can be projected with.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{field}: expected {expected}, found {found}")]
+pub struct RigError {
+    /// Name of the value.
+    pub field: &'static str,
+    /// What is allowed.
+    pub expected: String,
+    /// What it is.
+    pub found: f64,
+}
+
+/// Why there is no scene, or nothing to draw of it.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// A value in a file is wrong.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A file cannot be read.
+    #[error("{}: cannot be read: {source}", .file.display())]
+    Read {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// Neither a built-in scene nor a file of a known kind.
+    #[error("scene {name}: expected a file ending in .obj or .json, or one of: {}", .builtin.join(", "))]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// Names of the built-in scenes.
+        builtin: Vec<&'static str>,
+    },
+    /// The views are empty or larger than the configuration allows.
+    #[error("size {width}x{height}: expected 1x1 to {limit}x{limit} pixels")]
+    Size {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// Largest width and height.
+        limit: u32,
+    },
+    /// A value of the rig makes no sense.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+    /// A scene made in code contradicts itself.
+    #[error("mesh {mesh}: {field}: {problem}")]
+    Mesh {
+        /// Index of the mesh.
+        mesh: usize,
+        /// The part that is wrong.
+        field: &'static str,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
+
+/// Refuses views that are empty or larger than `limit`.
+pub fn check_size(width: u32, height: u32, limit: u32) -> Result<(), SceneError> {
+    if width == 0 || height == 0 || width > limit || height > limit {
+        return Err(SceneError::Size { width, height, limit });
+    }
+    Ok(())
+}
+
+/// The bytes of a file.
+pub fn read(file: &Path) -> Result<Vec<u8>, SceneError> {
+    std::fs::read(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })
+}

@@ -1,0 +1,106 @@
+//! Scenes: what is to be drawn, before any of it is snapped to integers.
+//!
+//! Coordinates are left-handed: x right, y up, z away from the viewer, in units of the scene's
+//! own. The screen is the plane z = 0, centred on the origin; the eyes are at (∓e/2, 0, −d).
+//! A scene comes from
+//!
+//! - code: the built-in scenes, [`builtin`];
+//! - a mesh, [`obj`]: centred and fitted at the screen plane, lit;
+//! - a file of its own format, [`json`]: drawn as it stands.
+//!
+//! [`open`] finds out which. A rig file ([`rig_file`]) may move the eyes and change the screen.
+//! [`Scene::geometry`] makes polygons of it, as setup wants them.
+
+mod builder;
+pub mod builtin;
+pub mod clip;
+mod error;
+mod geometry;
+pub mod json;
+pub mod light;
+mod locate;
+mod mesh;
+pub mod obj;
+mod obj_check;
+mod rig;
+pub mod rig_file;
+mod shading;
+pub mod vector;
+
+pub use error::*;
+pub use geometry::{Counts, Cull, Geometry, Options};
+pub use light::{Environment, Light, Lighting, Material, Panel, Source};
+pub use mesh::{Colours, Mesh, REPEAT_LIMIT};
+pub use rig::{Camera, HalfSpace, Rig, Snapped};
+pub use rig_file::RigFile;
+
+use crate::texture::Texture;
+use std::path::Path;
+
+/// Size of the views where nothing else is said.
+pub const DEFAULT_SIZE: [u32; 2] = [640, 480];
+
+/// Everything to draw, and from where.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Width of each view in pixels.
+    pub width: u32,
+    /// Height of each view in pixels.
+    pub height: u32,
+    /// Eyes and screen.
+    pub rig: Rig,
+    /// Colour where there is nothing.
+    pub background: [u8; 3],
+    /// Light; without it meshes show their colours as they are.
+    pub lighting: Option<Lighting>,
+    /// What polished surfaces reflect.
+    pub environment: Environment,
+    /// Materials of the meshes.
+    pub materials: Vec<Material>,
+    /// Textures of the materials.
+    pub textures: Vec<Texture>,
+    /// The meshes. Ids count their polygons in this order, triangles before faces in each.
+    pub meshes: Vec<Mesh>,
+}
+
+impl Scene {
+    /// Changes the size of the views; the smaller one of the two ratios scales the picture, so
+    /// that all of it stays in view.
+    pub fn resize(&mut self, width: u32, height: u32) -> Result<(), SceneError> {
+        check_size(width, height, SIZE_LIMIT)?;
+        let ratio = |new: u32, old: u32| f64::from(new) / f64::from(old.max(1));
+        self.rig.pixels_per_unit *= ratio(width, self.width).min(ratio(height, self.height));
+        (self.width, self.height) = (width, height);
+        Ok(())
+    }
+}
+
+/// Opens a built-in scene by its name, or a file that ends in `.obj` or `.json`.
+///
+/// `size` is the size of the views in pixels; it goes before that of the rig file, which goes
+/// before that of the scene. Where the size differs from the scene's own and the rig file does
+/// not say how large a pixel is, the picture is scaled with it.
+pub fn open(
+    name: &str,
+    size: Option<[u32; 2]>,
+    rig_file: Option<&Path>,
+) -> Result<Scene, SceneError> {
+    let rig_file = rig_file.map(RigFile::load).transpose()?.unwrap_or_default();
+    let size = size.or(rig_file.size());
+    let path = Path::new(name);
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let mut scene = match extension.as_deref() {
+        Some("obj") => {
+            let mut empty = obj::empty_scene();
+            rig_file.apply(&mut empty, size)?;
+            return obj::load(path, empty, &rig_file.placement());
+        }
+        Some("json") => json::load(path)?,
+        _ => {
+            let [width, height] = size.unwrap_or(DEFAULT_SIZE);
+            builtin::scene(name, width, height)?
+        }
+    };
+    rig_file.apply(&mut scene, size)?;
+    Ok(scene)
+}

@@ -1,0 +1,201 @@
+//! Rig files: where the eyes are, how large the screen is, how a mesh is placed and lit.
+//!
+//! A rig file is a JSON object. All fields are optional and replace those of the scene; others
+//! than these are refused:
+//!
+//! | field | value | default for meshes |
+//! | --- | --- | --- |
+//! | `width`, `height` | size of each view in pixels, 1 to 2048 (both or neither) | 640, 480 |
+//! | `pixels_per_unit` | pixels to a unit of length on the screen | 20 at 640 × 480, in proportion otherwise |
+//! | `eye_separation` | distance between the eyes | 6.5 |
+//! | `viewing_distance` | distance from the eyes to the screen | 60 |
+//! | `near`, `far` | distances from the eyes to the planes that cut the scene | a hundredth and a hundred times the viewing distance |
+//! | `head_tilt` | degrees by which the right eye is turned up | 0 |
+//! | `background` | `[red, green, blue]`, 0 to 255 | `[40, 44, 52]` |
+//! | `placement` | object, see below; concerns `.obj` meshes only | |
+//! | `light` | object, see below; concerns scenes that are lit | |
+//!
+//! `placement`: the mesh is turned by `rotation`, `[x, y, z]` in degrees, about its y axis first,
+//! then x, then z (right-hand rule in the mesh's own, right-handed coordinates: z towards the
+//! viewer; default `[0, 0, 0]`); its
+//! bounding box is centred on the screen and its longest side scaled to `fit` (default 0.8) times
+//! the smaller side of the screen, and it is moved by `offset` (`[x, y, z]` in units, z away from
+//! the viewer; default `[0, 0, 0]`). With `"fit": null` it is neither centred nor scaled.
+//!
+//! `light`: `direction` towards the light (`[x, y, z]`, z away; default `[-2, 4, -3]`), its
+//! `colour` (default `[0.8, 0.8, 0.8]`; 1 is white) and the `ambient` light (default
+//! `[0.25, 0.25, 0.25]`). What is not given takes its default, and all other lights go.
+
+use super::error::{check_size, InputError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT};
+use super::json::{parse, Channel};
+use super::light::{Light, Lighting, Source};
+use super::locate::Locator;
+use super::vector::Vec3;
+use super::Scene;
+use serde::{Deserialize, Deserializer};
+use std::path::{Path, PathBuf};
+
+/// A rig file as it stands.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RigFile {
+    width: Option<u32>,
+    height: Option<u32>,
+    pixels_per_unit: Option<f64>,
+    eye_separation: Option<f64>,
+    viewing_distance: Option<f64>,
+    near: Option<f64>,
+    far: Option<f64>,
+    head_tilt: Option<f64>,
+    background: Option<[Channel; 3]>,
+    #[serde(default)]
+    placement: Placement,
+    light: Option<LightFile>,
+    #[serde(skip)]
+    file: PathBuf,
+    #[serde(skip)]
+    text: String,
+}
+
+/// How a mesh is placed.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Placement {
+    /// Degrees about the mesh's x, y and z axes; y comes first, then x, then z.
+    pub rotation: [f64; 3],
+    /// Longest side of the bounding box, in smaller sides of the screen; none leaves the mesh
+    /// where it is.
+    #[serde(deserialize_with = "required_option")]
+    pub fit: Option<f64>,
+    /// Movement after fitting.
+    pub offset: Vec3,
+}
+
+/// Tells `null` from a field that is not there.
+fn required_option<'de, D: Deserializer<'de>>(value: D) -> Result<Option<f64>, D::Error> {
+    Option::deserialize(value)
+}
+
+impl Default for Placement {
+    fn default() -> Placement {
+        Placement { rotation: [0.0; 3], fit: Some(0.8), offset: [0.0; 3] }
+    }
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LightFile {
+    direction: Option<Vec3>,
+    colour: Option<Vec3>,
+    ambient: Option<Vec3>,
+}
+
+impl RigFile {
+    /// Reads a rig file.
+    pub fn load(file: &Path) -> Result<RigFile, SceneError> {
+        let text = String::from_utf8_lossy(&super::error::read(file)?).into_owned();
+        RigFile::read(file, text)
+    }
+
+    /// Reads a rig file's text; `file` is its name in messages.
+    pub fn read(file: &Path, text: String) -> Result<RigFile, SceneError> {
+        let rig: RigFile = parse(file, &text)?;
+        let rig = RigFile { file: file.to_owned(), text, ..rig };
+        rig.check()?;
+        Ok(rig)
+    }
+
+    fn wrong(&self, field: &str, expected: &str, found: String) -> InputError {
+        let path: Vec<&str> = field.split('.').collect();
+        let line = Locator::new(&self.text).line(&path, None);
+        InputError::new(&self.file, line, field, expected, found)
+    }
+
+    fn check(&self) -> Result<(), SceneError> {
+        if let (Some(n), None) | (None, Some(n)) = (self.width, self.height) {
+            let field = if self.width.is_some() { "width" } else { "height" };
+            let expected = "width and height, or neither";
+            return Err(self.wrong(field, expected, format!("{n} alone")).into());
+        }
+        for (field, value) in [("width", self.width), ("height", self.height)] {
+            if value.is_some_and(|n| n == 0 || n > SIZE_LIMIT) {
+                let found = value.unwrap_or_default().to_string();
+                return Err(self.wrong(field, "1 to 2048 pixels", found).into());
+            }
+        }
+        let limit = COORDINATE_LIMIT;
+        let vector = |field: &str, value: Option<Vec3>, least: f64, most: f64| {
+            let legal = value.is_none_or(|v| v.iter().all(|n| (least..=most).contains(n)));
+            let expected = format!("three numbers from {least} to {most}");
+            let found = || value.map(|v| format!("{v:?}")).unwrap_or_default();
+            if legal {
+                Ok(())
+            } else {
+                Err(self.wrong(field, &expected, found()))
+            }
+        };
+        vector("placement.rotation", Some(self.placement.rotation), -360.0, 360.0)?;
+        vector("placement.offset", Some(self.placement.offset), -limit, limit)?;
+        if let Some(fit) = self.placement.fit.filter(|fit| !(0.001..=1000.0).contains(fit)) {
+            let expected = "0.001 to 1000 or null";
+            return Err(self.wrong("placement.fit", expected, fit.to_string()).into());
+        }
+        if let Some(light) = &self.light {
+            vector("light.direction", light.direction, -limit, limit)?;
+            if light.direction == Some([0.0; 3]) {
+                let found = "a direction of length zero".into();
+                return Err(self.wrong("light.direction", "a direction", found).into());
+            }
+            vector("light.colour", light.colour, 0.0, 100.0)?;
+            vector("light.ambient", light.ambient, 0.0, 100.0)?;
+        }
+        // The rest is checked together with what it is combined with.
+        Ok(())
+    }
+
+    /// Size of the views, if the file says it.
+    pub fn size(&self) -> Option<[u32; 2]> {
+        Some([self.width?, self.height?])
+    }
+
+    /// Placement of a mesh.
+    pub fn placement(&self) -> Placement {
+        self.placement.clone()
+    }
+
+    /// Changes a scene as the file says, and to views of `size` if there is one.
+    pub fn apply(&self, scene: &mut Scene, size: Option<[u32; 2]>) -> Result<(), SceneError> {
+        if let Some([width, height]) = size {
+            scene.resize(width, height)?;
+        }
+        check_size(scene.width, scene.height, SIZE_LIMIT)?;
+        let rig = &mut scene.rig;
+        let replace = |old: &mut f64, new: Option<f64>| *old = new.unwrap_or(*old);
+        replace(&mut rig.pixels_per_unit, self.pixels_per_unit);
+        replace(&mut rig.eye_separation, self.eye_separation);
+        replace(&mut rig.viewing_distance, self.viewing_distance);
+        replace(&mut rig.head_tilt, self.head_tilt);
+        rig.near = self.near.or(rig.near);
+        rig.far = self.far.or(rig.far);
+        rig.check().map_err(|e| self.wrong(e.field, &e.expected, e.found.to_string()))?;
+        if let Some(background) = self.background {
+            scene.background = background.map(|c| c.0);
+        }
+        if let (Some(light), Some(lighting)) = (&self.light, &mut scene.lighting) {
+            *lighting = light.lighting();
+        }
+        Ok(())
+    }
+}
+
+impl LightFile {
+    fn lighting(&self) -> Lighting {
+        let mut lighting = Lighting::default();
+        lighting.ambient = self.ambient.unwrap_or(lighting.ambient);
+        for Light { source, colour } in &mut lighting.lights {
+            *source = self.direction.map_or(*source, Source::Direction);
+            *colour = self.colour.unwrap_or(*colour);
+        }
+        lighting
+    }
+}

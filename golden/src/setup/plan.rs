@@ -1,0 +1,339 @@
+//! How a polygon is drawn: derived, monocular, or not at all.
+
+use super::edge::Outline;
+use super::linear::{Linear, Plane};
+use super::mapping::Map;
+use super::polygon::{Eyes, Polygon};
+use super::span::{Row, View};
+use crate::config::Config;
+use crate::formats::{Eye, Formats, Rgba, FRACTION_BITS, GUARD_BITS, WIDENING_LIMIT};
+use alloc::vec::Vec;
+
+/// What to do about highlights that the eyes see differently (paper, section 5.5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Specular {
+    /// The secondary shows the primary's highlight.
+    Approximation,
+    /// Polygons with a noticeable highlight are drawn monocular.
+    Exception,
+    /// A second set of colour interpolators; textured polygons as by exception.
+    Integrated,
+}
+
+/// When the colour of a secondary pixel is the average of its primary pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sampling {
+    /// Textured polygons are averaged, smooth ones sampled.
+    Automatic,
+    /// Always the nearest primary pixel.
+    Nearest,
+    /// Always the average.
+    Average,
+}
+
+/// Arrangement of the two views on the display.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrangement {
+    /// Each view on a display of its own.
+    Normal,
+    /// Upside down, for displays seen in a mirror.
+    Flipped,
+    /// Left on even, right on odd display rows.
+    Interleaved,
+    /// Left above right.
+    AboveBelow,
+    /// The left view turned a quarter clockwise, the right one anticlockwise.
+    Rotated,
+}
+
+/// Choices of setup that are not built into the hardware.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Draw a polygon monocular where deriving it takes more beats.
+    pub cost_rule: bool,
+    /// Treatment of highlights.
+    pub specular: Specular,
+    /// Treatment of colour.
+    pub sampling: Sampling,
+    /// Arrangement on the display.
+    pub arrangement: Arrangement,
+    /// Primary and secondary go to one display instead of one each.
+    pub single: bool,
+    /// The system tests no edges: spans are not extended, polygons of more than three
+    /// corners are not accepted.
+    pub minimal: bool,
+}
+
+impl Options {
+    /// Usual choices for a configuration.
+    pub fn new(config: &Config) -> Options {
+        Options {
+            cost_rule: true,
+            specular: if config.integrated { Specular::Integrated } else { Specular::Exception },
+            sampling: Sampling::Automatic,
+            arrangement: Arrangement::Normal,
+            single: false,
+            minimal: false,
+        }
+    }
+}
+
+/// Why a polygon is drawn monocular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reason {
+    /// It faces, or is to be drawn for, one eye only.
+    ViewExclusive,
+    /// One view is more than 29 times as wide as the other.
+    Ratio,
+    /// Its highlight differs between the eyes.
+    Specular,
+    /// Deriving it would take more beats than drawing it twice.
+    Cost,
+    /// It left the guard band.
+    GuardBand,
+    /// Anti-aliasing would widen its spans too far.
+    Antialiasing,
+    /// Its colour or depth is too steep to be extrapolated.
+    Gradient,
+    /// It has more than three corners, which is a monocular feature.
+    Corners,
+}
+
+impl Reason {
+    /// All reasons, in the order they are listed.
+    pub const ALL: [Reason; 8] = [
+        Reason::ViewExclusive,
+        Reason::Ratio,
+        Reason::Specular,
+        Reason::Cost,
+        Reason::GuardBand,
+        Reason::Antialiasing,
+        Reason::Gradient,
+        Reason::Corners,
+    ];
+
+    /// Name in tables and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Reason::ViewExclusive => "view-exclusive",
+            Reason::Ratio => "ratio over 29",
+            Reason::Specular => "specular exception",
+            Reason::Cost => "cost",
+            Reason::GuardBand => "guard band",
+            Reason::Antialiasing => "anti-aliasing limit",
+            Reason::Gradient => "gradient limit",
+            Reason::Corners => "more than three corners",
+        }
+    }
+}
+
+/// A polygon's colour, depth and texture coordinates in one view, as linear functions.
+#[derive(Clone, Copy, Debug)]
+pub struct Attributes {
+    /// Red, green, blue and alpha.
+    pub colour: [Linear; 4],
+    /// Depth.
+    pub depth: Linear,
+    /// Texture coordinates times inverse distance (texels, 16 fraction bits, times 2^16) and
+    /// inverse distance (2^24 at the nearest vertex).
+    pub texture: Option<[Linear; 3]>,
+}
+
+impl Attributes {
+    /// The attributes of a polygon whose outline in this eye has an area.
+    pub fn new(polygon: &Polygon, eye: Eye, formats: &Formats) -> Attributes {
+        let outline = Outline::new(polygon, eye);
+        let points = outline.points();
+        let corners = Plane::corners(&outline);
+        let plane = Plane::new(corners.map(|k| points[k]), formats.subpixel_bits);
+        // Merged corners have shifted the numbering: find the vertex of each corner again.
+        let vertices = corners.map(|k| {
+            let [x, y] = points[k];
+            let here = |v: &&super::polygon::Vertex| {
+                i64::from(v.x[eye as usize]) == x && i64::from(v.y[eye as usize]) == y
+            };
+            polygon.vertices.iter().find(here).copied().unwrap_or_default()
+        });
+        let channel = |n: usize| {
+            let Rgba(first) = vertices[0].colour[eye as usize];
+            if polygon.vertices.len() > 3 {
+                return plane.through([first[n].into(); 3]);
+            }
+            plane.through(vertices.map(|v| v.colour[eye as usize].0[n].into()))
+        };
+        let inverse = vertices.map(|v| i64::from(v.inverse));
+        let texel = |n: usize| {
+            plane.through([0, 1, 2].map(|k| (i64::from(vertices[k].texel[n]) * inverse[k]) >> 8))
+        };
+        Attributes {
+            colour: [0, 1, 2, 3].map(channel),
+            depth: plane.through(vertices.map(|v| v.depth.into())),
+            texture: polygon.texture.map(|_| [texel(0), texel(1), plane.through(inverse)]),
+        }
+    }
+
+    /// Whether a colour or depth may leave its register ([`GUARD_BITS`]) within `reach` pixels of
+    /// the polygon.
+    fn exceeds(&self, reach: i64, colour_matters: bool, depth_matters: bool) -> bool {
+        let steep = |linear: &Linear, integer_bits: u32| {
+            let limit = 1i128 << (integer_bits + GUARD_BITS - 2 + FRACTION_BITS);
+            let [a, b] = [linear.a, linear.b].map(|n| i128::from(n).abs());
+            a * i128::from(reach) + b > limit
+        };
+        (colour_matters && self.colour.iter().any(|c| steep(c, 8)))
+            || (depth_matters && steep(&self.depth, 24))
+    }
+}
+
+/// A derived polygon.
+#[derive(Clone, Debug)]
+pub struct Derived {
+    /// The eye with the larger area.
+    pub primary: Eye,
+    /// Primary to secondary position.
+    pub map: Map,
+    /// The polygon as the primary eye sees it.
+    pub primary_view: View,
+    /// The polygon as the secondary eye sees it.
+    pub secondary_view: View,
+    /// Visited pixels of the primary.
+    pub rows: Vec<Row>,
+    /// Secondary colour comes from colour planes.
+    pub planes: bool,
+    /// Secondary colour is averaged.
+    pub average: bool,
+}
+
+/// How a polygon is drawn.
+#[derive(Clone, Debug)]
+pub enum Plan {
+    /// It covers nothing: no area, or outside the windows.
+    Nothing,
+    /// Drawn by the primary pipeline for each of these eyes.
+    Monocular {
+        /// Why.
+        reason: Reason,
+        /// For which eyes it has an area and is wanted.
+        eyes: [bool; 2],
+    },
+    /// Drawn for both eyes in one pass.
+    Derived(Derived),
+}
+
+/// Decides how polygons are drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Planner {
+    /// Build parameters of the hardware.
+    pub config: Config,
+    /// The widths that follow from them.
+    pub formats: Formats,
+    /// Width of each view in pixels.
+    pub width: u32,
+    /// Height of each view in pixels.
+    pub height: u32,
+    /// Choices.
+    pub options: Options,
+}
+
+impl Planner {
+    /// A planner for views of this size.
+    pub fn new(config: Config, options: Options, width: u32, height: u32) -> Planner {
+        Planner { config, formats: Formats::new(&config), width, height, options }
+    }
+
+    /// Decides about one polygon.
+    pub fn plan(&self, polygon: &Polygon) -> Plan {
+        let outlines = Eye::BOTH.map(|eye| Outline::new(polygon, eye));
+        let areas = outlines.map(|o| o.doubled_area());
+        let wanted = Eye::BOTH.map(|eye| polygon.eyes.contains(eye) && areas[eye as usize] != 0);
+        let monocular = |reason| Plan::Monocular { reason, eyes: wanted };
+        if wanted == [false, false] {
+            return Plan::Nothing;
+        }
+        if polygon.guard_band {
+            return monocular(Reason::GuardBand);
+        }
+        if polygon.eyes != Eyes::Both || areas[0].signum() * areas[1].signum() != 1 {
+            return monocular(Reason::ViewExclusive);
+        }
+        if polygon.vertices.len() > 3 {
+            return monocular(Reason::Corners);
+        }
+        self.binocular(polygon, &outlines, areas).unwrap_or_else(monocular)
+    }
+
+    /// A polygon that both eyes see from the same side.
+    fn binocular(
+        &self,
+        polygon: &Polygon,
+        outlines: &[Outline; 2],
+        areas: [i64; 2],
+    ) -> Result<Plan, Reason> {
+        let larger = if areas[0].abs() >= areas[1].abs() { Eye::Left } else { Eye::Right };
+        let corners = |eye: Eye| {
+            let points = outlines[eye as usize].points();
+            [points[0], points[1], points[2]]
+        };
+        let map_from = |eye: Eye| Map::new(corners(eye), corners(eye.other()), &self.formats);
+        let usable = |eye: Eye| map_from(eye).filter(Map::is_monotone).map(|map| (eye, map));
+        // With a tilted head the larger view may still be the narrower one.
+        let (primary, map) =
+            usable(larger).or_else(|| usable(larger.other())).ok_or(Reason::ViewExclusive)?;
+        if map.exceeds_filter() {
+            return Err(Reason::Ratio);
+        }
+        let integrated = self.options.specular == Specular::Integrated && self.config.integrated;
+        let planes = integrated && polygon.texture.is_none();
+        if polygon.specular && !planes && self.options.specular != Specular::Approximation {
+            return Err(Reason::Specular);
+        }
+        let antialias = self.config.antialias && !self.options.minimal;
+        let widening = if antialias { map.widening() } else { 0 };
+        if widening > WIDENING_LIMIT {
+            return Err(Reason::Antialiasing);
+        }
+        let depth_sampled = self.options.minimal || !self.config.interpolated_depth;
+        let sampled = Attributes::new(polygon, primary, &self.formats);
+        // What the secondary interpolates is extrapolated to touched pixels only.
+        let touches_outside = antialias && {
+            let own = Attributes::new(polygon, primary.other(), &self.formats);
+            own.exceeds(1, planes, !depth_sampled)
+        };
+        if touches_outside || sampled.exceeds(widening + 1, !planes, depth_sampled) {
+            return Err(Reason::Gradient);
+        }
+
+        let primary_view = View::new(&outlines[primary as usize], &self.formats);
+        let secondary_view = View::new(&outlines[primary.other() as usize], &self.formats);
+        let right = i64::from(self.width) - 1;
+        let uncut = primary_view.is_within(self.width) && secondary_view.is_within(self.width);
+        let slack = widening + 1;
+        let rows = primary_view.extended_rows(self.height, widening, |y| {
+            if uncut {
+                return [-slack, right + slack];
+            }
+            let [first, last] = map.window(y, self.width.into());
+            [first.min(0), last.max(right)]
+        });
+        if self.options.cost_rule {
+            let derived: u64 = rows.iter().map(Row::len).sum();
+            let twice = self.monocular_cost(&primary_view) + self.monocular_cost(&secondary_view);
+            if derived > twice {
+                return Err(Reason::Cost);
+            }
+        }
+        if rows.is_empty() {
+            return Ok(Plan::Nothing);
+        }
+        let average = match self.options.sampling {
+            Sampling::Automatic => polygon.texture.is_some(),
+            Sampling::Nearest => false,
+            Sampling::Average => true,
+        };
+        Ok(Plan::Derived(Derived { primary, map, primary_view, secondary_view, rows, planes, average }))
+    }
+
+    fn monocular_cost(&self, view: &View) -> u64 {
+        view.monocular_rows(self.width, self.height).map(|r| r.len()).sum()
+    }
+}

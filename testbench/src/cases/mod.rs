@@ -1,0 +1,113 @@
+//! Cases: what is fed to a target and what the golden model says must come out.
+//!
+//! A case is made before the simulator runs, so that a mismatch can be repeated from the seed alone.
+//! Random cases are constrained: they are legal streams, weighted towards the edges of ranges.
+
+mod combinational;
+mod interpolators;
+mod pixels;
+mod systems;
+
+use std::fmt;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::interface::{Beat, Direction, Interface, Table};
+use wheatstone_golden::targets::{Probe, Target};
+
+pub use systems::{random_polygons, recorded};
+
+/// What a target is fed and what must come out.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The unit or system.
+    pub target: Target,
+    /// Build parameters.
+    pub config: Config,
+    /// What the case is, in reports.
+    pub name: String,
+    /// Values of the static inputs, in the interface's order.
+    pub statics: Vec<u64>,
+    /// Beats of the input streams, in the interface's order.
+    pub inputs: Vec<Table>,
+    /// Beats expected of the output streams, in the interface's order.
+    pub outputs: Vec<Table>,
+    /// Values of the flags at the end.
+    pub flags: Vec<u64>,
+    /// Beats expected at the units inside a system.
+    pub probes: Vec<(Probe, Table)>,
+}
+
+impl Case {
+    /// The target's interface.
+    pub fn interface(&self) -> Interface {
+        self.target.interface(&self.config)
+    }
+
+    /// An empty case.
+    fn empty(target: Target, config: &Config, name: impl fmt::Display) -> Case {
+        let interface = target.interface(config);
+        let tables = |direction| {
+            let streams = interface.streams.iter().filter(move |s| s.direction == direction);
+            streams.map(|s| Table::new(&s.fields)).collect()
+        };
+        Case {
+            target,
+            config: *config,
+            name: name.to_string(),
+            statics: vec![0; interface.statics.len()],
+            inputs: tables(Direction::Input),
+            outputs: tables(Direction::Output),
+            flags: vec![0; interface.flags.len()],
+            probes: Vec::new(),
+        }
+    }
+
+    /// Adds a beat to the first input stream.
+    fn give<B: Beat>(&mut self, beat: &B) {
+        self.inputs[0].push(beat);
+    }
+
+    /// Adds a beat to the first output stream.
+    fn expect<B: Beat>(&mut self, beat: &B) {
+        self.outputs[0].push(beat);
+    }
+
+    /// Beats given to the first input of a unit, or to `beat` of a system.
+    pub fn beats(&self) -> u64 {
+        let inputs = self.interface();
+        let inputs = inputs.streams.iter().filter(|s| s.direction == Direction::Input);
+        let longest = inputs.zip(&self.inputs).map(|(_, table)| table.len()).max();
+        longest.unwrap_or(0) as u64
+    }
+}
+
+/// A random case of about `beats` beats for a unit or a system.
+pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case {
+    match target {
+        Target::XInterpolator => interpolators::x(config, seed, beats),
+        Target::YInterpolator => interpolators::y(config, seed, beats),
+        Target::EdgeInterpolator => interpolators::edge(config, seed, beats),
+        Target::Sampler => pixels::sampler(config, seed, beats),
+        Target::Filter => pixels::filter(config, seed, beats),
+        Target::Coverage => combinational::coverage_case(config, seed, beats),
+        Target::Blend => combinational::blend_case(config, seed, beats),
+        Target::Display => combinational::display_case(config, seed, beats),
+        Target::Redirect => combinational::redirect_case(config, seed, beats),
+        Target::Minimal | Target::Hybrid => systems::random(target, config, seed, beats),
+    }
+}
+
+/// The directed cases of a target: corners that random beats rarely meet.
+pub fn directed(target: Target, config: &Config) -> Vec<Case> {
+    match target {
+        Target::XInterpolator => vec![interpolators::x_corners(config)],
+        Target::YInterpolator => vec![interpolators::y_corners(config)],
+        Target::EdgeInterpolator => vec![interpolators::edge_corners(config)],
+        Target::Sampler => Vec::new(),
+        Target::Filter => vec![pixels::filter_corners(config)],
+        Target::Coverage => vec![combinational::coverage_corners(config)],
+        Target::Blend => vec![combinational::blend_corners(config)],
+        Target::Display => Vec::new(),
+        Target::Redirect => Vec::new(),
+        Target::Minimal | Target::Hybrid => systems::directed(target, config),
+    }
+}

@@ -1,0 +1,166 @@
+//! Cases of the complete systems: random polygons, bad setups, scenes.
+
+use super::Case;
+use fastrand::Rng;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::formats::*;
+use wheatstone_golden::interface::{Direction, Table};
+use wheatstone_golden::pipeline::{Edges, Mode, Op, PrimaryBeat, Setup};
+use wheatstone_golden::primary::Sink;
+use wheatstone_golden::random::{Class, Triangles};
+use wheatstone_golden::record::{Recording, Tape};
+use wheatstone_golden::setup::{Arrangement, Options, Polygon, Sampling, Specular};
+use wheatstone_golden::stereo::Job;
+use wheatstone_golden::targets::{probes, Target};
+use wheatstone_golden::texture::Lookup;
+
+/// The case of what a system did for a job, or for a part of it.
+pub fn recorded(target: Target, job: &Job, name: &str, recording: &Recording) -> Case {
+    let mut case = Case::empty(target, &job.config, name);
+    let interface = case.interface();
+    case.statics = vec![job.width.into(), job.height.into(), job.options.single.into(), 0];
+    let table = |stream: &str| recording.streams.get(stream).cloned().unwrap_or_default();
+    let of = |direction: Direction| {
+        let streams = interface.streams.iter().filter(move |s| s.direction == direction);
+        streams.map(|s| table(s.name)).collect::<Vec<Table>>()
+    };
+    case.inputs = of(Direction::Input);
+    case.outputs = of(Direction::Output);
+    case.flags = vec![recording.error.into()];
+    for probe in probes(target, &job.config) {
+        let empty = || Table::new(&probe.stream.fields);
+        let table = recording.outputs.get(&probe.unit).cloned().unwrap_or_else(empty);
+        case.probes.push((probe, table));
+    }
+    case
+}
+
+/// Options drawn at random among those that the configuration can build.
+fn options(rng: &mut Rng, config: &Config) -> Options {
+    let pick = |rng: &mut Rng, n: usize| rng.usize(..n);
+    Options {
+        cost_rule: rng.u32(..4) == 0,
+        specular: if config.integrated && rng.bool() {
+            Specular::Integrated
+        } else {
+            [Specular::Approximation, Specular::Exception][pick(rng, 2)]
+        },
+        sampling: [Sampling::Automatic, Sampling::Nearest, Sampling::Average][pick(rng, 3)],
+        arrangement: [
+            Arrangement::Normal,
+            Arrangement::Flipped,
+            Arrangement::Interleaved,
+            Arrangement::AboveBelow,
+            Arrangement::Rotated,
+        ][pick(rng, 5)],
+        single: rng.u32(..5) == 0,
+        minimal: false,
+    }
+}
+
+/// Polygons of all classes, alpha and convex polygons of more than three corners among them.
+pub fn random_polygons(seed: u64, formats: Formats, size: [u32; 2], count: u32) -> Vec<Polygon> {
+    let mut triangles = Triangles::new(seed, formats, size[0], size[1]);
+    (0..count)
+        .map(|id| {
+            let class = Class::ALL[triangles.rng.usize(..Class::ALL.len())];
+            let mut polygon = triangles.triangle(class);
+            if triangles.rng.u32(..8) == 0 {
+                polygon = triangles.convex();
+            }
+            if triangles.rng.u32(..4) == 0 {
+                let alpha = triangles.rng.u8(..);
+                polygon.vertices.iter_mut().for_each(|v| v.colour.iter_mut().for_each(|c| c.0[3] = alpha));
+            }
+            Polygon { id, ..polygon }
+        })
+        .collect()
+}
+
+/// Random polygons in a small window, so that they overlap: about `beats` beats.
+pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case {
+    let rng = &mut Rng::with_seed(seed);
+    let size = [rng.u32(24..120), rng.u32(16..90)];
+    let options = options(rng, config);
+    let minimal = target == Target::Minimal;
+    let nothing = job(config, options, size, &[]);
+    let mut tape = Tape::new(&nothing, minimal, false);
+    let mut drawn = 0;
+    for _ in 0..beats {
+        let polygons = random_polygons(rng.u64(..), Formats::new(config), size, 16);
+        drawn += job(config, options, size, &polygons).run(minimal, tape.sink()).beats();
+        if drawn >= beats as u64 {
+            break;
+        }
+    }
+    recorded(target, &nothing, "random polygons", &tape.take())
+}
+
+fn job<'a>(config: &Config, options: Options, size: [u32; 2], polygons: &'a [Polygon]) -> Job<'a> {
+    Job {
+        config: *config,
+        options,
+        width: size[0],
+        height: size[1],
+        background: [30, 60, 90],
+        polygons,
+        textures: &[],
+        lookup: Lookup::Nearest,
+    }
+}
+
+/// Every kind of bad setup between good polygons, and beats that no polygon owns.
+pub fn directed(target: Target, config: &Config) -> Vec<Case> {
+    let f = Formats::new(config);
+    let size = [64, 48];
+    let minimal = target == Target::Minimal;
+    let polygons = random_polygons(5, f, size, 12);
+    let options = Options { cost_rule: false, ..Options::new(config) };
+    let good = job(config, options, size, &polygons);
+    let mut tape = Tape::new(&good, minimal, false);
+    good.run(minimal, &mut Spoiler { sink: tape.sink(), formats: f, polygon: 0 });
+    let spoiled = recorded(target, &good, "bad setups", &tape.take());
+
+    let mut tape = Tape::new(&good, minimal, false);
+    let stray = PrimaryBeat { op: Op::Step, mask: Mask::new(1, &f), centre: true, ..Default::default() };
+    tape.sink().beat(&stray);
+    tape.sink().beat(&PrimaryBeat { op: Op::Row, last: true, ..stray });
+    good.run(minimal, tape.sink());
+    let stray = recorded(target, &good, "beats before the first polygon", &tape.take());
+    vec![spoiled, stray]
+}
+
+/// Passes polygons on, and repeats each with its setup spoilt in turn.
+struct Spoiler<'a, S> {
+    sink: &'a mut S,
+    formats: Formats,
+    polygon: usize,
+}
+
+impl<S: Sink> Sink for Spoiler<'_, S> {
+    fn polygon(&mut self, id: u32) {
+        self.polygon += 1;
+        self.sink.polygon(id);
+    }
+    fn records(&mut self, setup: &Setup, edges: &Edges) {
+        let f = &self.formats;
+        let far = i64::from(f.max_size + f.guard_band) + START_SLACK;
+        let spoilt = match self.polygon % 9 {
+            0 => Setup { mode: Mode(4 + setup.mode.0), ..*setup },
+            1 => Setup { x_step: Scale::new(SCALE_ONE + 1, f), ..*setup },
+            2 => Setup { x_step: Scale::new(SCALE_MIN - 1, f), ..*setup },
+            3 => Setup { x_start: SecondaryX::wrap(far << FRACTION_BITS, f), ..*setup },
+            4 => Setup { lend: true, ..*setup },
+            5 => Setup { x_start: SecondaryX::wrap(-(far << FRACTION_BITS), f), ..*setup },
+            _ => *setup,
+        };
+        let empty = Edges { e0_a: Slope::default(), e1_a: Slope::default(), e2_a: Slope::default(), ..*edges };
+        let edges = if self.polygon % 9 == 6 { &empty } else { edges };
+        self.sink.records(&spoilt, edges);
+    }
+    fn beat(&mut self, beat: &PrimaryBeat) {
+        let illegal = self.polygon % 9 == 7 && beat.op == Op::Row;
+        let op = if illegal { Op::Reserved } else { beat.op };
+        self.sink.beat(&PrimaryBeat { op, ..*beat });
+    }
+}

@@ -1,0 +1,37 @@
+//! Blend: identities and distance from exact blending.
+
+use wheatstone_golden::config::Config;
+use wheatstone_golden::formats::{Area, Formats, Quantity};
+use wheatstone_golden::pipeline::blend::{factor, mix};
+
+#[test]
+fn the_ends_are_identities_and_the_rest_is_rounded() {
+    for s in 0..=255u8 {
+        for b in 0..=255u8 {
+            assert_eq!(mix(s, b, 0), b);
+            assert_eq!(mix(s, b, 256), s);
+            for t in 0..=256 {
+                let exact = (f64::from(s) * f64::from(t) + f64::from(b) * f64::from(256 - t)) / 256.0;
+                assert!((f64::from(mix(s, b, t)) - exact).abs() <= 0.5);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_factor_is_alpha_times_area() {
+    for config in [Config::DEFAULT, Config::PAPER] {
+        let f = Formats::new(&config);
+        let full = f.full_area();
+        for alpha in 0..=255u8 {
+            for area in 0..=full {
+                let t = factor(alpha, Area::new(area.into(), &f), &f);
+                let exact = f64::from(alpha) / 255.0 * f64::from(area) / f64::from(full) * 256.0;
+                assert!((f64::from(t) - exact).abs() <= 1.0, "{alpha} {area}: {t} for {exact}");
+            }
+            assert_eq!(factor(0, Area::new(full.into(), &f), &f), 0);
+            assert_eq!(factor(alpha, Area::new(0, &f), &f), 0);
+        }
+        assert_eq!(factor(255, Area::new(full.into(), &f), &f), 256);
+    }
+}
