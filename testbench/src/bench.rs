@@ -80,6 +80,16 @@ impl Bench {
         self.run_until_done(job, Some(responder))
     }
 
+    /// Makes the bits of the stalls, unless the last run had the same.
+    pub(crate) fn prepare(&mut self, stalls: Stalls) -> &[u32] {
+        if self.gates.0 != stalls || self.gates.1.is_empty() {
+            let layout = self.model.library().layout();
+            let inputs = layout.mask(Direction::Input);
+            self.gates = (stalls, stalls.gates(layout.streams.len(), inputs));
+        }
+        &self.gates.1
+    }
+
     fn run_until_done(
         &mut self,
         job: &Job<'_>,
@@ -91,10 +101,7 @@ impl Bench {
         for (index, &value) in job.statics.iter().enumerate() {
             self.model.poke(layout.static_input(index), value);
         }
-        if self.gates.0 != job.stalls || self.gates.1.is_empty() {
-            let inputs = layout.mask(Direction::Input);
-            self.gates = (job.stalls, job.stalls.gates(layout.streams.len(), inputs));
-        }
+        self.prepare(job.stalls);
         let start = self.cycle;
         let mut run = Run::new(&library, job, &self.gates.1, &self.junk);
         let (result, end) = run.go(&mut self.model, start, job.limits, responder);

@@ -168,7 +168,7 @@ impl<'a> Run<'a> {
     }
 
     fn watch(&mut self, library: &Library, tables: &[Option<&'a Table>]) {
-        let streams = library.probes().iter().flat_map(|probe| &probe.unit.streams);
+        let streams = library.probes().iter().flat_map(|probe| &probe.streams);
         for (number, (stream, table)) in streams.zip(tables).enumerate() {
             let lane = Lane::new(stream, *table);
             if table.is_some() {
@@ -201,10 +201,10 @@ impl<'a> Run<'a> {
             let mut pokes = gate & state.waiting;
             state.waiting ^= pokes;
             let unusual = (state.freed & !pokes) | (state.junked & pokes) | (asked & gate);
+            state.offered |= pokes;
             if unusual != 0 {
                 pokes = self.prepare(&mut state, gate, pokes, cycle, &mut responder);
             }
-            state.offered |= pokes;
             let drive = state.offered | (gate & self.outputs);
             let found = model.cycle(10 * cycle, drive, pokes, &self.rows);
             let seen = found.seen as u32;
@@ -260,7 +260,7 @@ impl<'a> Run<'a> {
         &mut self,
         state: &mut State,
         gate: u32,
-        opening: u32,
+        mut opening: u32,
         cycle: u64,
         responder: &mut Option<&mut dyn Responder>,
     ) -> u32 {
@@ -268,20 +268,20 @@ impl<'a> Run<'a> {
             self.rows.set(stream, self.lanes[stream].rows);
         }
         state.junked &= !opening;
-        let mut offering = opening;
         if let Some(responder) = responder {
             let asked = gate & self.inputs & !self.tabled & !state.offered;
             for stream in bits(asked.into()) {
                 let filled = self.rows.fill(stream, |row| responder.respond(stream, cycle, row));
-                offering |= u32::from(filled) << stream;
+                opening |= u32::from(filled) << stream;
             }
         }
-        let idle = state.freed & !offering;
+        state.offered |= opening;
+        let idle = state.freed & !opening;
         for stream in bits(idle.into()) {
             self.rows.set(stream, &self.junk[cycle as usize % 1024..]);
         }
         state.junked |= idle;
-        offering | idle
+        opening | idle
     }
 
     /// A beat of a stream was taken.

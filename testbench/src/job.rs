@@ -119,11 +119,11 @@ impl Job<'_> {
         if !self.probes.is_empty() {
             count("tables of probes", layout.probed.len(), self.probes.len())?;
         }
-        let watched = probes.iter().flat_map(|probe| &probe.unit.streams);
+        let watched = probes.iter().flat_map(|probe| &probe.streams);
         let streams = interface.streams.iter().zip(self.tables);
         for (stream, table) in streams.chain(watched.zip(self.probes)) {
-            let (expected, found) =
-                (stream.fields.len(), table.map_or(stream.fields.len(), Table::width));
+            let Some(table) = table.filter(|table| !table.is_empty()) else { continue };
+            let (expected, found) = (stream.fields.len(), table.width());
             if expected != found {
                 let stream = stream.name.to_owned();
                 return Err(JobError::Width { stream, expected, found });

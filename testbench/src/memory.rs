@@ -46,7 +46,13 @@ enum Role {
 
 impl Memory {
     /// A memory for a system's streams; `expected` are the answers of the golden model.
-    pub fn new(interface: &Interface, frames: Frames, expected: Table, latency: Option<u64>, seed: u64) -> Memory {
+    pub fn new(
+        interface: &Interface,
+        frames: Frames,
+        expected: Table,
+        latency: Option<u64>,
+        seed: u64,
+    ) -> Memory {
         let role = |name: &str| match name {
             "request" => Role::Request,
             "left" | "right" => Role::Pixels,
@@ -96,7 +102,10 @@ impl Responder for Memory {
         response.write(&mut fields);
         row.copy_from_slice(&fields);
         let number = self.answered as usize;
-        if self.stale.is_none() && number < self.expected.len() && self.expected.row(number) != fields {
+        if self.stale.is_none()
+            && number < self.expected.len()
+            && self.expected.row(number) != fields
+        {
             self.stale = Some((self.answered, Response::read(self.expected.row(number)), response));
         }
         self.answered += 1;

@@ -57,7 +57,7 @@ pub(crate) fn control_file(probes: &[Probe], layout: &Layout) -> String {
         .iter()
         .flat_map(|(number, stream)| stream.signals().map(move |signal| (number, signal)))
         .map(|(&number, signal)| {
-            let (module, name) = (probes[number].unit.module, &layout.signals[signal].name);
+            let (module, name) = (probes[number].module, &layout.signals[signal].name);
             format!("public_flat_rd -module \"{module}\" -var \"{name}\"\n")
         })
         .collect();

@@ -5,7 +5,6 @@ use crate::bench::Bench;
 use crate::job::{Job, JobError};
 use crate::model::{Library, LoadError};
 use crate::outcome::Outcome;
-use crate::stalls::Stalls;
 use std::time::Instant;
 use thiserror::Error;
 use wheatstone_golden::interface::{Direction, Table};
@@ -56,12 +55,10 @@ pub fn compare_speed(library: &Library, job: &Job<'_>, rounds: usize) -> Result<
     let inputs = tables.iter().filter(|(stream, _)| stream.direction == Direction::Input);
     let columns: Vec<Vec<u64>> = inputs.flat_map(|(_, table)| columns(table)).collect();
     let beats: Vec<u64> = tables.iter().map(|(_, table)| table.len() as u64).collect();
-    let gates = job.stalls.gates(streams.len(), library.layout().mask(Direction::Input));
-    debug_assert_eq!(gates.len(), Stalls::PERIOD);
-
     let mut speed = Speed::default();
     for round in 0..rounds {
         let mut bench = Bench::new(library, round as u64)?;
+        let gates = bench.prepare(job.stalls).to_vec();
         let start = Instant::now();
         let outcome = bench.run(job)?;
         let time = start.elapsed().as_secs_f64();

@@ -182,7 +182,7 @@ fn probe(model: &Model, number: usize) -> (Place, &[Field]) {
     let (owner, _) = library.layout().probed[number];
     let probe = &library.probes()[owner];
     let before = library.layout().probed[..number].iter().filter(|(o, _)| *o == owner).count();
-    let stream = &probe.unit.streams[before];
+    let stream = &probe.streams[before];
     let place = Place { instance: Some(probe.instance.clone()), stream: stream.name };
     (place, &stream.fields)
 }
