@@ -2,7 +2,7 @@
 
 use crate::drive::{Run, JUNK};
 use crate::job::{Job, JobError, Responder, TraceWindow};
-use crate::model::{Library, LoadError, Model, TraceError};
+use crate::model::{Library, LoadError, Model, TraceError, Words, WORDS};
 use crate::outcome::Outcome;
 use crate::stalls::Stalls;
 use wheatstone_golden::interface::Direction;
@@ -15,7 +15,7 @@ pub struct Bench {
     model: Model,
     cycle: u64,
     random: fastrand::Rng,
-    junk: Vec<u64>,
+    junk: Box<[Words; JUNK]>,
     /// The gates of the stalls that were used last.
     gates: (Stalls, Vec<u32>),
 }
@@ -28,7 +28,8 @@ impl Bench {
         assert!(layout.streams.len() < 32 && layout.probed.len() <= 64, "too many streams");
         let model = Model::new(library, seed)?;
         let mut random = fastrand::Rng::with_seed(seed);
-        let junk = std::iter::repeat_with(|| random.u64(..)).take(JUNK).collect();
+        let mut junk = Box::new([[0; WORDS]; JUNK]);
+        junk.iter_mut().flatten().for_each(|word| *word = random.u64(..));
         let mut bench = Bench { model, cycle: 0, random, junk, gates: Default::default() };
         bench.reset();
         Ok(bench)
@@ -56,9 +57,8 @@ impl Bench {
 
     /// Writes a part of the runs that follow to a waveform file.
     pub fn trace(&mut self, window: &TraceWindow) -> Result<(), TraceError> {
-        let times =
-            10 * window.from_cycle..10 * window.to_cycle.saturating_add(1).min(u64::MAX / 10);
-        self.model.trace_open(&window.path, times)
+        let cycles = window.from_cycle..window.to_cycle.saturating_add(1);
+        self.model.trace_open(&window.path, cycles)
     }
 
     /// Completes the waveform file; dropping the bench does so too.

@@ -18,53 +18,10 @@
 mod report;
 
 use crate::job::{Job, Limits, Responder};
-use crate::model::{Library, Model, Rows, Seen};
+use crate::model::{Cursors, Library, Model, Seen, Words};
 use crate::outcome::Outcome;
 use report::payload;
-use wheatstone_golden::interface::{Direction, Stream, Table};
-
-/// One stream during a run.
-struct Lane<'a> {
-    /// The row to be offered or expected next, and all rows after it.
-    rows: &'a [u64],
-    /// Fields of a row.
-    width: usize,
-    /// Beats taken.
-    done: u64,
-    /// Cycle of the last beat.
-    last: u64,
-    /// Cycle of the first beat.
-    first: u64,
-    /// Clocks on which a beat waited.
-    stalled: u64,
-    /// Rows in all, if there is a table.
-    total: Option<u64>,
-}
-
-impl<'a> Lane<'a> {
-    fn new(stream: &Stream, table: Option<&'a Table>) -> Lane<'a> {
-        Lane {
-            rows: table.map_or(&[], Table::values),
-            width: stream.fields.len(),
-            done: 0,
-            last: 0,
-            first: 0,
-            stalled: 0,
-            total: table.map(|table| table.len() as u64),
-        }
-    }
-
-    /// The row to be offered or expected next; empty if there is none.
-    fn row(&self) -> &'a [u64] {
-        self.rows.get(..self.width).unwrap_or_default()
-    }
-
-    /// Goes on to the next row.
-    #[inline]
-    fn step(&mut self) {
-        self.rows = self.rows.get(self.width..).unwrap_or_default();
-    }
-}
+use wheatstone_golden::interface::{Direction, Table};
 
 /// The bits of a mask, lowest first.
 #[inline]
@@ -85,26 +42,20 @@ struct State {
     offered: u32,
     /// Inputs served in the last cycle.
     freed: u32,
-    /// Inputs whose row was replaced by random words.
-    junked: u32,
     /// Outputs with a beat that was not taken in the last cycle.
     held: u32,
     /// Streams with rows left, or answers due.
     unfinished: u32,
-    /// Compared outputs without a row left.
-    exhausted: u32,
-    /// Streams of whose beats more than the count is kept.
-    special: u32,
 }
 
 /// A run; the masks here do not change.
 pub(crate) struct Run<'a> {
-    lanes: Vec<Lane<'a>>,
-    probes: Vec<Lane<'a>>,
-    rows: Rows<'a>,
+    /// Tables of all streams, the module's first, then those of the probes.
+    tables: Vec<Option<&'a Table>>,
+    cursors: Cursors<'a>,
     gates: &'a [u32],
     /// Random words, for the fields of inputs that offer nothing.
-    junk: &'a [u64],
+    junk: &'a [Words; JUNK],
     inputs: u32,
     outputs: u32,
     /// Streams with a table.
@@ -112,74 +63,42 @@ pub(crate) struct Run<'a> {
     /// Inputs that answer requests, and the numbers of both.
     answers: u32,
     pairs: Vec<(usize, usize)>,
-    /// Streams of whose beats the responder is told.
-    told: u32,
-    state: State,
     /// Probed streams that are compared.
-    probed: u64,
-    /// Probed streams without a row left.
-    probes_exhausted: u64,
-    /// Beats compared on probed streams.
-    compared: u64,
+    watched: u64,
 }
 
-/// Random words from which a row may be cut anywhere below 1024.
-pub(crate) const JUNK: usize = 1024 + 256;
+/// Rows of random words.
+pub(crate) const JUNK: usize = 16;
 
 impl<'a> Run<'a> {
     /// Prepares a run; the job was checked. The length of `gates` is a power of two.
-    pub fn new(library: &Library, job: &Job<'a>, gates: &'a [u32], junk: &'a [u64]) -> Run<'a> {
-        let (interface, layout) = (library.interface(), library.layout());
-        let streams = || interface.streams.iter().zip(job.tables);
-        let mask = |f: &dyn Fn(&Stream, &Option<&Table>) -> bool| {
-            let bits = streams().enumerate().map(|(i, (s, table))| u32::from(f(s, table)) << i);
-            bits.sum::<u32>()
+    pub fn new(
+        library: &Library,
+        job: &Job<'a>,
+        gates: &'a [u32],
+        junk: &'a [Words; JUNK],
+    ) -> Run<'a> {
+        let layout = library.layout();
+        let tables = [job.tables, job.probes].concat();
+        let values: Vec<Option<&[u64]>> = tables.iter().map(|t| t.map(Table::values)).collect();
+        let mask = |tables: &[Option<&Table>]| -> u64 {
+            let bit = |(i, table): (usize, &Option<&Table>)| u64::from(table.is_some()) << i;
+            tables.iter().enumerate().map(bit).sum()
         };
         let answering = layout.streams.iter().enumerate();
         let pairs: Vec<(usize, usize)> =
             answering.filter_map(|(i, s)| s.answers.map(|request| (i, request))).collect();
-        let mut run = Run {
-            lanes: streams().map(|(stream, table)| Lane::new(stream, *table)).collect(),
-            probes: Vec::new(),
-            rows: Rows::new(library),
+        Run {
+            cursors: Cursors::new(library, &values),
             gates,
             junk,
             inputs: layout.mask(Direction::Input),
             outputs: layout.mask(Direction::Output),
-            tabled: mask(&|_, table| table.is_some()),
+            tabled: mask(job.tables) as u32,
             answers: pairs.iter().map(|(answer, _)| 1 << answer).sum(),
             pairs,
-            told: 0,
-            state: State::default(),
-            probed: 0,
-            probes_exhausted: 0,
-            compared: 0,
-        };
-        let filled = mask(&|_, table| table.is_some_and(|table| !table.is_empty()));
-        run.state.unfinished = filled;
-        run.state.waiting = filled & run.inputs & !run.answers;
-        run.state.exhausted = run.tabled & run.outputs & !filled;
-        run.state.special = u32::MAX;
-        for stream in bits(filled.into()) {
-            run.rows.set(stream, run.lanes[stream].rows);
-        }
-        run.watch(library, job.probes);
-        run
-    }
-
-    fn watch(&mut self, library: &Library, tables: &[Option<&'a Table>]) {
-        let streams = library.probes().iter().flat_map(|probe| &probe.streams);
-        for (number, (stream, table)) in streams.zip(tables).enumerate() {
-            let lane = Lane::new(stream, *table);
-            if table.is_some() {
-                self.probed |= 1 << number;
-            }
-            if lane.rows.is_empty() {
-                self.probes_exhausted |= 1 << number;
-            } else {
-                self.rows.set(self.lanes.len() + number, lane.rows);
-            }
-            self.probes.push(lane);
+            watched: mask(job.probes),
+            tables,
         }
     }
 
@@ -193,45 +112,44 @@ impl<'a> Run<'a> {
     ) -> (Result<(), Outcome>, u64) {
         let asked = self.inputs & !self.tabled;
         let checked = u64::from(self.outputs & self.tabled) | Seen::STOPPED;
-        self.told = if responder.is_some() { self.outputs } else { 0 };
-        let mut state = self.state;
+        let told = if responder.is_some() { self.outputs } else { 0 };
+        let mut state = self.begin();
         let (mut cycle, mut idle, mut after) = (start, 0, 0);
         let result = loop {
             let gate = self.gates[cycle as usize & (self.gates.len() - 1)];
-            let mut pokes = gate & state.waiting;
-            state.waiting ^= pokes;
-            let unusual = (state.freed & !pokes) | (state.junked & pokes) | (asked & gate);
-            state.offered |= pokes;
-            if unusual != 0 {
-                pokes = self.prepare(&mut state, gate, pokes, cycle, &mut responder);
+            let mut opening = gate & state.waiting;
+            state.waiting ^= opening;
+            if asked & gate & !state.offered != 0 {
+                opening |= self.ask(asked & gate & !state.offered, cycle, &mut responder);
             }
+            state.offered |= opening;
+            let emptied = state.freed & !opening;
+            let pokes = u64::from(opening) | u64::from(emptied) << 32;
             let drive = state.offered | (gate & self.outputs);
-            let found = model.cycle(10 * cycle, drive, pokes, &self.rows);
-            let seen = found.seen as u32;
+            let junk = &self.junk[cycle as usize % JUNK];
+            let Seen { seen, wrong } = model.cycle(cycle, drive, pokes, &mut self.cursors, junk);
+            let (seen, ended) = (seen as u32, (seen >> 32) as u32);
 
-            if self.probed != 0 && found.wrong & Seen::STOPPED == 0 {
-                if let Err(mismatch) = self.look(model, cycle) {
-                    break Err(mismatch);
+            if self.watched != 0 && wrong & Seen::STOPPED == 0 {
+                let found = model.probe(cycle, self.watched, &mut self.cursors);
+                if found.wrong != 0 {
+                    break Err(self.probe_fault(model, cycle, found.wrong));
                 }
             }
-            let faulty = (found.wrong & checked)
-                | u64::from(seen & state.exhausted)
-                | u64::from(state.held & !seen);
+            let faulty = (wrong & checked) | u64::from(state.held & !seen);
             if faulty != 0 {
                 break Err(self.fault(model, cycle, &state, faulty, seen));
             }
 
-            state.held = seen & !drive & self.outputs;
-            for stream in bits((state.held | (drive & !seen & self.inputs)).into()) {
-                self.lanes[stream].stalled += 1;
-            }
             let taken = drive & seen;
-            for stream in bits(taken.into()) {
-                self.advance(model, &mut state, stream, cycle, &mut responder);
-            }
+            state.held = seen & !drive & self.outputs;
             state.freed = taken & self.inputs;
             state.offered &= !state.freed;
+            state.unfinished &= !ended;
             state.waiting |= state.freed & state.unfinished & !self.answers;
+            if taken & told != 0 {
+                self.tell(model, taken & told, cycle, &mut responder);
+            }
             if self.answers != 0 && taken != 0 {
                 self.release(&mut state);
             }
@@ -253,85 +171,48 @@ impl<'a> Run<'a> {
         (result, cycle)
     }
 
-    /// Sets the rows of inputs that do not simply go on: after stalls, and from the responder.
-    /// Returns the inputs whose fields are to be set.
-    #[inline(never)]
-    fn prepare(
-        &mut self,
-        state: &mut State,
-        gate: u32,
-        mut opening: u32,
-        cycle: u64,
-        responder: &mut Option<&mut dyn Responder>,
-    ) -> u32 {
-        for stream in bits((opening & state.junked).into()) {
-            self.rows.set(stream, self.lanes[stream].rows);
-        }
-        state.junked &= !opening;
-        if let Some(responder) = responder {
-            let asked = gate & self.inputs & !self.tabled & !state.offered;
-            for stream in bits(asked.into()) {
-                let filled = self.rows.fill(stream, |row| responder.respond(stream, cycle, row));
-                opening |= u32::from(filled) << stream;
-            }
-        }
-        state.offered |= opening;
-        let idle = state.freed & !opening;
-        for stream in bits(idle.into()) {
-            self.rows.set(stream, &self.junk[cycle as usize % 1024..]);
-        }
-        state.junked |= idle;
-        opening | idle
+    /// The state before the first clock.
+    fn begin(&self) -> State {
+        let tables = self.tables.iter().take(32).enumerate();
+        let filled = |(i, table): (usize, &Option<&Table>)| {
+            u32::from(table.is_some_and(|table| !table.is_empty())) << i
+        };
+        let unfinished = tables.map(filled).sum::<u32>() & (self.inputs | self.outputs);
+        let waiting = unfinished & self.inputs & !self.answers;
+        State { waiting, unfinished, ..State::default() }
     }
 
-    /// A beat of a stream was taken.
-    #[inline]
-    fn advance(
+    /// Asks the responder for beats; returns the inputs that have one.
+    #[inline(never)]
+    fn ask(&mut self, asked: u32, cycle: u64, responder: &mut Option<&mut dyn Responder>) -> u32 {
+        let Some(responder) = responder else { return 0 };
+        let mut answer = |stream| {
+            let filled = self.cursors.fill(stream, |row| responder.respond(stream, cycle, row));
+            u32::from(filled) << stream
+        };
+        bits(asked.into()).map(&mut answer).sum()
+    }
+
+    /// Tells the responder what outputs sent.
+    #[inline(never)]
+    fn tell(
         &mut self,
         model: &Model,
-        state: &mut State,
-        stream: usize,
+        taken: u32,
         cycle: u64,
         responder: &mut Option<&mut dyn Responder>,
     ) {
-        let bit = 1u32 << stream;
-        if state.special & bit != 0 {
-            self.notice(model, stream, cycle, responder);
-            state.special &= !bit | self.told;
-        }
-        let lane = &mut self.lanes[stream];
-        lane.done += 1;
-        lane.last = cycle;
-        if self.tabled & bit != 0 {
-            lane.step();
-            if lane.rows.is_empty() {
-                state.unfinished &= !bit;
-                state.exhausted |= bit & self.outputs;
-            } else {
-                self.rows.set(stream, lane.rows);
-            }
-        }
-    }
-
-    /// Keeps the cycle of a first beat and tells the responder of outputs.
-    #[inline(never)]
-    fn notice(
-        &mut self,
-        model: &Model,
-        stream: usize,
-        cycle: u64,
-        responder: &mut Option<&mut dyn Responder>,
-    ) {
-        let lane = &mut self.lanes[stream];
-        if lane.done == 0 {
-            lane.first = cycle;
-        }
-        if let (Some(responder), true) = (responder, self.told >> stream & 1 == 1) {
-            if lane.total.is_some() {
-                responder.accepted(stream, cycle, lane.row());
-            } else {
-                let row = payload(model, &model.library().layout().streams[stream]);
-                responder.accepted(stream, cycle, &row);
+        let Some(responder) = responder else { return };
+        for stream in bits(taken.into()) {
+            match self.tables[stream] {
+                Some(table) => {
+                    let sent = self.cursors[stream].done - 1;
+                    responder.accepted(stream, cycle, table.row(sent as usize));
+                }
+                None => {
+                    let row = payload(model, &model.library().layout().streams[stream]);
+                    responder.accepted(stream, cycle, &row);
+                }
             }
         }
     }
@@ -340,35 +221,12 @@ impl<'a> Run<'a> {
     fn release(&mut self, state: &mut State) {
         for &(answer, request) in &self.pairs {
             let bit = 1u32 << answer;
-            let due = self.lanes[request].done > self.lanes[answer].done;
+            let due = self.cursors[request].done > self.cursors[answer].done;
             if self.tabled & bit == 0 {
                 state.unfinished = (state.unfinished & !bit) | (u32::from(due) << answer);
             } else if due && state.unfinished & !state.offered & bit != 0 {
                 state.waiting |= bit;
             }
         }
-    }
-
-    /// Compares what the probes saw.
-    #[inline]
-    fn look(&mut self, model: &Model, cycle: u64) -> Result<(), Outcome> {
-        let Seen { seen, wrong } = model.probe(&self.rows);
-        let taken = seen & self.probed;
-        let faulty = taken & (wrong | self.probes_exhausted);
-        if faulty != 0 {
-            return Err(self.probe_fault(model, cycle, faulty.trailing_zeros() as usize));
-        }
-        self.compared += u64::from(taken.count_ones());
-        for number in bits(taken) {
-            let lane = &mut self.probes[number];
-            lane.done += 1;
-            lane.step();
-            if lane.rows.is_empty() {
-                self.probes_exhausted |= 1 << number;
-            } else {
-                self.rows.set(self.lanes.len() + number, lane.rows);
-            }
-        }
-        Ok(())
     }
 }
