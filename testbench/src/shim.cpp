@@ -257,6 +257,8 @@ API bool wheatstone_trace_open(Handle* h, const char* path) {
     h->guarded([=] {
         h->trace.reset(new VerilatedFstC);
         h->top->trace(h->trace.get(), 99);
+        h->trace->set_time_unit("1ns");
+        h->trace->set_time_resolution("1ns");
         h->trace->open(path);
     });
     return h->trace && h->trace->isOpen();

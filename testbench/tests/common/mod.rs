@@ -140,3 +140,18 @@ pub fn run_adder(bug: u32, sums: &Sums, stalls: Stalls) -> Outcome {
         })
         .unwrap()
 }
+
+/// An empty cache, but for Verilator's runtime, which takes long to compile.
+pub fn fresh_cache() -> tempfile::TempDir {
+    model(&adder(0), &[]);
+    let folder = tempfile::tempdir().unwrap();
+    let cache = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..").join(Builder::CACHE);
+    for entry in std::fs::read_dir(cache.canonicalize().unwrap()).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name();
+        if name.to_string_lossy().starts_with("runtime-") && entry.path().is_dir() {
+            std::os::unix::fs::symlink(entry.path(), folder.path().join(name)).unwrap();
+        }
+    }
+    folder
+}
