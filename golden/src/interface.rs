@@ -121,12 +121,7 @@ impl Bits for bool {
         bits & 1 == 1
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field {
-            name,
-            bits: 1,
-            kind: Kind::Flag,
-            doc,
-        }
+        Field { name, bits: 1, kind: Kind::Flag, doc }
     }
 }
 
@@ -138,12 +133,7 @@ impl Bits for Rgba {
         Rgba::from_word(bits as u32)
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field {
-            name,
-            bits: 32,
-            kind: Kind::Colour,
-            doc,
-        }
+        Field { name, bits: 32, kind: Kind::Colour, doc }
     }
 }
 
@@ -157,12 +147,7 @@ impl Bits for [u8; 3] {
         [r, g, b]
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field {
-            name,
-            bits: 24,
-            kind: Kind::Colour,
-            doc,
-        }
+        Field { name, bits: 24, kind: Kind::Colour, doc }
     }
 }
 
@@ -174,16 +159,8 @@ impl Bits for u8 {
         bits as u8
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        let kind = Kind::Number {
-            signed: false,
-            fraction: 0,
-        };
-        Field {
-            name,
-            bits: 8,
-            kind,
-            doc,
-        }
+        let kind = Kind::Number { signed: false, fraction: 0 };
+        Field { name, bits: 8, kind, doc }
     }
 }
 
@@ -195,12 +172,7 @@ impl Bits for Eye {
         Eye::BOTH[bits as usize & 1]
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field {
-            name,
-            bits: 1,
-            kind: Kind::Code(&["left", "right"]),
-            doc,
-        }
+        Field { name, bits: 1, kind: Kind::Code(&["left", "right"]), doc }
     }
 }
 
@@ -276,12 +248,7 @@ pub struct Stream {
 
 impl Stream {
     fn of<B: Beat>(name: &'static str, direction: Direction, formats: &Formats) -> Stream {
-        Stream {
-            name,
-            direction,
-            fields: B::fields(formats),
-            answers: None,
-        }
+        Stream { name, direction, fields: B::fields(formats), answers: None }
     }
 
     /// An input stream of beats `B`.
@@ -334,10 +301,7 @@ pub struct Table {
 impl Table {
     /// An empty table for beats with these fields.
     pub fn new(fields: &[Field]) -> Table {
-        Table {
-            masks: fields.iter().map(Field::mask).collect(),
-            values: Vec::new(),
-        }
+        Table { masks: fields.iter().map(Field::mask).collect(), values: Vec::new() }
     }
 
     /// An empty table for beats `B`.
@@ -358,8 +322,7 @@ impl Table {
     /// Appends a beat given as a row of field values.
     pub fn push_row(&mut self, row: &[u64]) {
         debug_assert_eq!(row.len(), self.masks.len());
-        self.values
-            .extend(row.iter().zip(&self.masks).map(|(v, m)| v & m));
+        self.values.extend(row.iter().zip(&self.masks).map(|(v, m)| v & m));
     }
 
     /// Number of beats.

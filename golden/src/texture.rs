@@ -48,10 +48,7 @@ impl Texture {
             (self.texel(column + 1, row + 1), right * down),
         ];
         Rgba(core::array::from_fn(|channel| {
-            let sum: u32 = corners
-                .iter()
-                .map(|(c, w)| u32::from(c.0[channel]) * w)
-                .sum();
+            let sum: u32 = corners.iter().map(|(c, w)| u32::from(c.0[channel]) * w).sum();
             ((sum + (1 << 15)) >> 16) as u8
         }))
     }

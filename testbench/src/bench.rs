@@ -2,8 +2,10 @@
 
 use crate::drive::{Run, JUNK};
 use crate::job::{Job, JobError, Responder, TraceWindow};
-use crate::model::{Library, LoadError, Model, TraceError};
+use crate::model::{Library, LoadError, Model, TraceError, Words, WORDS};
 use crate::outcome::Outcome;
+use crate::stalls::Stalls;
+use wheatstone_golden::interface::Direction;
 
 /// A model in its test bench.
 ///
@@ -13,7 +15,9 @@ pub struct Bench {
     model: Model,
     cycle: u64,
     random: fastrand::Rng,
-    junk: Vec<u64>,
+    junk: Box<[Words; JUNK]>,
+    /// The gates of the stalls that were used last.
+    gates: (Stalls, Vec<u32>),
 }
 
 impl Bench {
@@ -21,21 +25,12 @@ impl Bench {
     /// the length of the reset, 1 to 4 clocks.
     pub fn new(library: &Library, seed: u64) -> Result<Bench, LoadError> {
         let layout = library.layout();
-        assert!(
-            layout.streams.len() < 32 && layout.probed.len() <= 64,
-            "too many streams"
-        );
+        assert!(layout.streams.len() < 32 && layout.probed.len() <= 64, "too many streams");
         let model = Model::new(library, seed)?;
         let mut random = fastrand::Rng::with_seed(seed);
-        let junk = std::iter::repeat_with(|| random.u64(..))
-            .take(JUNK)
-            .collect();
-        let mut bench = Bench {
-            model,
-            cycle: 0,
-            random,
-            junk,
-        };
+        let mut junk = Box::new([[0; WORDS]; JUNK]);
+        junk.iter_mut().flatten().for_each(|word| *word = random.u64(..));
+        let mut bench = Bench { model, cycle: 0, random, junk, gates: Default::default() };
         bench.reset();
         Ok(bench)
     }
@@ -62,9 +57,8 @@ impl Bench {
 
     /// Writes a part of the runs that follow to a waveform file.
     pub fn trace(&mut self, window: &TraceWindow) -> Result<(), TraceError> {
-        let times =
-            10 * window.from_cycle..10 * window.to_cycle.saturating_add(1).min(u64::MAX / 10);
-        self.model.trace_open(&window.path, times)
+        let cycles = window.from_cycle..window.to_cycle.saturating_add(1);
+        self.model.trace_open(&window.path, cycles)
     }
 
     /// Completes the waveform file; dropping the bench does so too.
@@ -86,6 +80,16 @@ impl Bench {
         self.run_until_done(job, Some(responder))
     }
 
+    /// Makes the bits of the stalls, unless the last run had the same.
+    pub(crate) fn prepare(&mut self, stalls: Stalls) -> &[u32] {
+        if self.gates.0 != stalls || self.gates.1.is_empty() {
+            let layout = self.model.library().layout();
+            let inputs = layout.mask(Direction::Input);
+            self.gates = (stalls, stalls.gates(layout.streams.len(), inputs));
+        }
+        &self.gates.1
+    }
+
     fn run_until_done(
         &mut self,
         job: &Job<'_>,
@@ -97,8 +101,9 @@ impl Bench {
         for (index, &value) in job.statics.iter().enumerate() {
             self.model.poke(layout.static_input(index), value);
         }
+        self.prepare(job.stalls);
         let start = self.cycle;
-        let mut run = Run::new(&library, job, &self.junk);
+        let mut run = Run::new(&library, job, &self.gates.1, &self.junk);
         let (result, end) = run.go(&mut self.model, start, job.limits, responder);
         self.cycle = end;
         self.model.trace_flush();

@@ -18,65 +18,10 @@
 mod report;
 
 use crate::job::{Job, Limits, Responder};
-use crate::model::{Library, Model, Rows, Seen};
+use crate::model::{Cursors, Library, Model, Seen, Words};
 use crate::outcome::Outcome;
-use crate::stalls::Stalls;
 use report::payload;
-use std::slice::ChunksExact;
-use wheatstone_golden::interface::{Direction, Stream, Table};
-
-/// One stream during a run.
-struct Lane<'a> {
-    /// Rows after the present one.
-    rest: ChunksExact<'a, u64>,
-    /// The row to be offered next, or the one expected next.
-    row: &'a [u64],
-    /// Rows in all.
-    total: Option<u64>,
-    /// Beats taken.
-    done: u64,
-    /// Clocks on which a beat waited.
-    stalled: u64,
-    /// Cycle of the first beat.
-    first: u64,
-    /// Cycle of the last beat.
-    last: u64,
-    /// For an answer: the requests.
-    answers: Option<usize>,
-    /// For requests: the answers.
-    answered_by: Option<usize>,
-}
-
-impl<'a> Lane<'a> {
-    /// A lane at the first row of its table, and whether there is one.
-    fn new(stream: &Stream, table: Option<&'a Table>) -> (Lane<'a>, bool) {
-        let values = table.map_or(&[][..], Table::values);
-        let mut rest = values.chunks_exact(stream.fields.len().max(1));
-        let row = rest.next();
-        let lane = Lane {
-            rest,
-            row: row.unwrap_or_default(),
-            total: table.map(|table| table.len() as u64),
-            done: 0,
-            stalled: 0,
-            first: 0,
-            last: 0,
-            answers: None,
-            answered_by: None,
-        };
-        (lane, row.is_some())
-    }
-
-    /// Counts a beat.
-    #[inline]
-    fn count(&mut self, cycle: u64) {
-        if self.done == 0 {
-            self.first = cycle;
-        }
-        self.done += 1;
-        self.last = cycle;
-    }
-}
+use wheatstone_golden::interface::{Direction, Table};
 
 /// The bits of a mask, lowest first.
 #[inline]
@@ -88,24 +33,9 @@ fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The state of a run; the masks have a bit a stream.
-pub(crate) struct Run<'a> {
-    lanes: Vec<Lane<'a>>,
-    probes: Vec<Lane<'a>>,
-    rows: Rows<'a>,
-    gates: Vec<u32>,
-    /// Random words, for the fields of inputs that offer nothing.
-    junk: &'a [u64],
-    inputs: u32,
-    outputs: u32,
-    /// Outputs that are compared.
-    checked: u32,
-    /// Inputs that the responder supplies.
-    asked: u32,
-    /// Streams with rows left, or answers due.
-    unfinished: u32,
-    /// Compared outputs without a row left.
-    exhausted: u32,
+/// What changes from clock to clock, a bit a stream.
+#[derive(Clone, Copy, Default)]
+struct State {
     /// Inputs that have a beat and wait for their gate.
     waiting: u32,
     /// Inputs that are offering a beat.
@@ -114,90 +44,65 @@ pub(crate) struct Run<'a> {
     freed: u32,
     /// Outputs with a beat that was not taken in the last cycle.
     held: u32,
-    /// Probed streams that are compared.
-    probed: u64,
-    /// Probed streams without a row left.
-    probes_exhausted: u64,
-    compared: u64,
+    /// Streams with rows left, or answers due.
+    unfinished: u32,
 }
 
-/// Random words from which a row may be cut anywhere.
-pub(crate) const JUNK: usize = 1024 + 256;
+/// A run; the masks here do not change.
+pub(crate) struct Run<'a> {
+    /// Tables of all streams, the module's first, then those of the probes.
+    tables: Vec<Option<&'a Table>>,
+    cursors: Cursors<'a>,
+    gates: &'a [u32],
+    /// Random words, for the fields of inputs that offer nothing.
+    junk: &'a [Words; JUNK],
+    inputs: u32,
+    outputs: u32,
+    /// Streams with a table.
+    tabled: u32,
+    /// Inputs that answer requests, and the numbers of both.
+    answers: u32,
+    pairs: Vec<(usize, usize)>,
+    /// Probed streams that are compared.
+    watched: u64,
+}
+
+/// Rows of random words.
+pub(crate) const JUNK: usize = 16;
 
 impl<'a> Run<'a> {
-    /// Prepares a run; the job was checked.
-    pub fn new(library: &Library, job: &Job<'a>, junk: &'a [u64]) -> Run<'a> {
+    /// Prepares a run; the job was checked. The length of `gates` is a power of two.
+    pub fn new(
+        library: &Library,
+        job: &Job<'a>,
+        gates: &'a [u32],
+        junk: &'a [Words; JUNK],
+    ) -> Run<'a> {
         let layout = library.layout();
-        let inputs = layout.mask(Direction::Input);
-        let mut run = Run {
-            lanes: Vec::new(),
-            probes: Vec::new(),
-            rows: Rows::new(library),
-            gates: job.stalls.gates(layout.streams.len(), inputs),
-            junk,
-            inputs,
-            outputs: layout.mask(Direction::Output),
-            checked: 0,
-            asked: 0,
-            unfinished: 0,
-            exhausted: 0,
-            waiting: 0,
-            offered: 0,
-            freed: 0,
-            held: 0,
-            probed: 0,
-            probes_exhausted: 0,
-            compared: 0,
+        let tables = [job.tables, job.probes].concat();
+        let values: Vec<Option<&[u64]>> = tables.iter().map(|t| t.map(Table::values)).collect();
+        let mask = |tables: &[Option<&Table>]| -> u64 {
+            let bit = |(i, table): (usize, &Option<&Table>)| u64::from(table.is_some()) << i;
+            tables.iter().enumerate().map(bit).sum()
         };
-        for (number, stream) in library.interface().streams.iter().enumerate() {
-            let (table, bit) = (job.tables[number], 1u32 << number);
-            let (mut lane, has_row) = Lane::new(stream, table);
-            lane.answers = layout.streams[number].answers;
-            run.unfinished |= if has_row { bit } else { 0 };
-            match (stream.direction, table) {
-                (Direction::Input, None) => run.asked |= bit,
-                (Direction::Input, Some(_)) if lane.answers.is_none() && has_row => {
-                    run.waiting |= bit;
-                }
-                (Direction::Output, Some(_)) => {
-                    run.checked |= bit;
-                    run.exhausted |= if has_row { 0 } else { bit };
-                    if has_row {
-                        run.rows.set(number, lane.row);
-                    }
-                }
-                _ => (),
-            }
-            run.lanes.push(lane);
-        }
-        for answer in 0..run.lanes.len() {
-            if let Some(request) = run.lanes[answer].answers {
-                run.lanes[request].answered_by = Some(answer);
-            }
-        }
-        run.watch(library, job.probes);
-        run
-    }
-
-    fn watch(&mut self, library: &Library, tables: &[Option<&'a Table>]) {
-        let streams = library
-            .probes()
-            .iter()
-            .flat_map(|probe| &probe.unit.streams);
-        for (number, (stream, table)) in streams.zip(tables).enumerate() {
-            let (lane, has_row) = Lane::new(stream, *table);
-            if table.is_some() {
-                self.probed |= 1 << number;
-                self.probes_exhausted |= if has_row { 0 } else { 1 << number };
-            }
-            if has_row {
-                self.rows.set(self.lanes.len() + number, lane.row);
-            }
-            self.probes.push(lane);
+        let answering = layout.streams.iter().enumerate();
+        let pairs: Vec<(usize, usize)> =
+            answering.filter_map(|(i, s)| s.answers.map(|request| (i, request))).collect();
+        Run {
+            cursors: Cursors::new(library, &values),
+            gates,
+            junk,
+            inputs: layout.mask(Direction::Input),
+            outputs: layout.mask(Direction::Output),
+            tabled: mask(job.tables) as u32,
+            answers: pairs.iter().map(|(answer, _)| 1 << answer).sum(),
+            pairs,
+            watched: mask(job.probes),
+            tables,
         }
     }
 
-    /// Runs to the end, from cycle `start`; returns the result and the cycles simulated.
+    /// Runs to the end, from cycle `start`; returns the result and the cycle after the last.
     pub fn go(
         &mut self,
         model: &mut Model,
@@ -205,159 +110,123 @@ impl<'a> Run<'a> {
         limits: Limits,
         mut responder: Option<&mut dyn Responder>,
     ) -> (Result<(), Outcome>, u64) {
+        let asked = self.inputs & !self.tabled;
+        let checked = u64::from(self.outputs & self.tabled) | Seen::STOPPED;
+        let told = if responder.is_some() { self.outputs } else { 0 };
+        let mut state = self.begin();
         let (mut cycle, mut idle, mut after) = (start, 0, 0);
         let result = loop {
-            let gate = self.gates[cycle as usize % Stalls::PERIOD];
-            let pokes = self.offer(gate, cycle, &mut responder);
-            let drive = self.offered | (gate & self.outputs);
-            let found = model.cycle(10 * cycle, drive, pokes, &self.rows);
-            let seen = found.seen as u32;
-            if self.probed != 0 && found.wrong & Seen::STOPPED == 0 {
-                if let Err(mismatch) = self.look(model, cycle) {
-                    break Err(mismatch);
+            let gate = self.gates[cycle as usize & (self.gates.len() - 1)];
+            let mut opening = gate & state.waiting;
+            state.waiting ^= opening;
+            if asked & gate & !state.offered != 0 {
+                opening |= self.ask(asked & gate & !state.offered, cycle, &mut responder);
+            }
+            state.offered |= opening;
+            let emptied = state.freed & !opening;
+            let pokes = u64::from(opening) | u64::from(emptied) << 32;
+            let drive = state.offered | (gate & self.outputs);
+            let junk = &self.junk[cycle as usize % JUNK];
+            let Seen { seen, wrong } = model.cycle(cycle, drive, pokes, &mut self.cursors, junk);
+            let (seen, ended) = (seen as u32, (seen >> 32) as u32);
+
+            if self.watched != 0 && wrong & Seen::STOPPED == 0 {
+                let found = model.probe(cycle, self.watched, &mut self.cursors);
+                if found.wrong != 0 {
+                    break Err(self.probe_fault(model, cycle, found.wrong));
                 }
             }
-            let wrong = found.wrong as u32 & self.checked;
-            let faulty = wrong | (seen & self.exhausted) | (self.held & !seen);
-            if faulty != 0 || found.wrong & Seen::STOPPED != 0 {
-                break Err(self.fault(model, cycle, faulty, seen, found.wrong));
+            let faulty = (wrong & checked) | u64::from(state.held & !seen);
+            if faulty != 0 {
+                break Err(self.fault(model, cycle, &state, faulty, seen));
             }
-            self.held = seen & !drive & self.outputs;
-            for stream in bits((self.held | (drive & !seen & self.inputs)).into()) {
-                self.lanes[stream].stalled += 1;
-            }
+
             let taken = drive & seen;
-            for stream in bits(taken.into()) {
-                self.advance(model, stream, cycle, &mut responder);
+            state.held = seen & !drive & self.outputs;
+            state.freed = taken & self.inputs;
+            state.offered &= !state.freed;
+            state.unfinished &= !ended;
+            state.waiting |= state.freed & state.unfinished & !self.answers;
+            if taken & told != 0 {
+                self.tell(model, taken & told, cycle, &mut responder);
             }
-            idle = if taken != 0 { 0 } else { idle + 1 };
+            if self.answers != 0 && taken != 0 {
+                self.release(&mut state);
+            }
+
             cycle += 1;
-            if self.unfinished != 0 {
-                after = 0;
-                if idle >= limits.watchdog {
-                    break Err(self.hung(model, cycle - 1, idle));
-                }
-            } else {
+            idle = if taken != 0 { 0 } else { idle + 1 };
+            if state.unfinished == 0 {
                 after += 1;
                 if idle >= limits.quiet || after >= limits.watchdog {
                     break Ok(());
+                }
+            } else {
+                after = 0;
+                if idle >= limits.watchdog {
+                    break Err(self.hung(model, cycle - 1, idle));
                 }
             }
         };
         (result, cycle)
     }
 
-    /// Begins to offer what may be offered; returns the inputs whose fields are to be set.
-    #[inline]
-    fn offer(&mut self, gate: u32, cycle: u64, responder: &mut Option<&mut dyn Responder>) -> u32 {
-        let mut opening = gate & self.waiting;
-        self.waiting ^= opening;
-        for stream in bits(opening.into()) {
-            self.rows.set(stream, self.lanes[stream].row);
-        }
-        if let Some(responder) = responder {
-            for stream in bits((gate & self.asked & !self.offered).into()) {
-                let filled = self
-                    .rows
-                    .fill(stream, |row| responder.respond(stream, cycle, row));
-                opening |= u32::from(filled) << stream;
-            }
-        }
-        let idle = self.freed & !opening;
-        self.freed = 0;
-        self.offered |= opening;
-        for stream in bits(idle.into()) {
-            self.rows.set(stream, &self.junk[cycle as usize % 1024..]);
-        }
-        opening | idle
+    /// The state before the first clock.
+    fn begin(&self) -> State {
+        let tables = self.tables.iter().take(32).enumerate();
+        let filled = |(i, table): (usize, &Option<&Table>)| {
+            u32::from(table.is_some_and(|table| !table.is_empty())) << i
+        };
+        let unfinished = tables.map(filled).sum::<u32>() & (self.inputs | self.outputs);
+        let waiting = unfinished & self.inputs & !self.answers;
+        State { waiting, unfinished, ..State::default() }
     }
 
-    /// A beat of a stream was taken.
-    #[inline]
-    fn advance(
+    /// Asks the responder for beats; returns the inputs that have one.
+    #[inline(never)]
+    fn ask(&mut self, asked: u32, cycle: u64, responder: &mut Option<&mut dyn Responder>) -> u32 {
+        let Some(responder) = responder else { return 0 };
+        let mut answer = |stream| {
+            let filled = self.cursors.fill(stream, |row| responder.respond(stream, cycle, row));
+            u32::from(filled) << stream
+        };
+        bits(asked.into()).map(&mut answer).sum()
+    }
+
+    /// Tells the responder what outputs sent.
+    #[inline(never)]
+    fn tell(
         &mut self,
         model: &Model,
-        stream: usize,
+        taken: u32,
         cycle: u64,
         responder: &mut Option<&mut dyn Responder>,
     ) {
-        let bit = 1u32 << stream;
-        let lane = &mut self.lanes[stream];
-        lane.count(cycle);
-        if self.inputs & bit != 0 {
-            self.offered ^= bit;
-            self.freed |= bit;
-            if self.asked & bit == 0 {
-                match lane.rest.next() {
-                    Some(row) => lane.row = row,
-                    None => self.unfinished ^= bit,
-                }
-            }
-            self.release(stream);
-            return;
-        }
-        if let Some(responder) = responder {
-            if self.checked & bit != 0 {
-                responder.accepted(stream, cycle, lane.row);
-            } else {
-                let row = payload(model, &model.library().layout().streams[stream]);
-                responder.accepted(stream, cycle, &row);
-            }
-        }
-        if self.checked & bit != 0 {
-            match lane.rest.next() {
-                Some(row) => {
-                    lane.row = row;
-                    self.rows.set(stream, row);
+        let Some(responder) = responder else { return };
+        for stream in bits(taken.into()) {
+            match self.tables[stream] {
+                Some(table) => {
+                    let sent = self.cursors[stream].done - 1;
+                    responder.accepted(stream, cycle, table.row(sent as usize));
                 }
                 None => {
-                    self.unfinished ^= bit;
-                    self.exhausted |= bit;
+                    let row = payload(model, &model.library().layout().streams[stream]);
+                    responder.accepted(stream, cycle, &row);
                 }
             }
         }
-        if let Some(answer) = self.lanes[stream].answered_by {
-            self.release(answer);
-        }
     }
 
-    /// Lets an input go on, after it was served or a request for it was taken.
-    #[inline]
-    fn release(&mut self, stream: usize) {
-        let bit = 1u32 << stream;
-        let lane = &self.lanes[stream];
-        let due = lane
-            .answers
-            .is_none_or(|request| self.lanes[request].done > lane.done);
-        if self.asked & bit != 0 {
-            let due = due && lane.answers.is_some();
-            self.unfinished = (self.unfinished & !bit) | if due { bit } else { 0 };
-        } else if due && self.unfinished & !self.offered & bit != 0 {
-            self.waiting |= bit;
-        }
-    }
-
-    /// Compares what the probes saw.
-    #[inline]
-    fn look(&mut self, model: &Model, cycle: u64) -> Result<(), Outcome> {
-        let Seen { seen, wrong } = model.probe(&self.rows);
-        let taken = seen & self.probed;
-        let faulty = taken & (wrong | self.probes_exhausted);
-        if faulty != 0 {
-            return Err(self.probe_fault(model, cycle, faulty.trailing_zeros() as usize));
-        }
-        for number in bits(taken) {
-            let lane = &mut self.probes[number];
-            lane.count(cycle);
-            self.compared += 1;
-            match lane.rest.next() {
-                Some(row) => {
-                    lane.row = row;
-                    self.rows.set(self.lanes.len() + number, row);
-                }
-                None => self.probes_exhausted |= 1 << number,
+    /// Lets the answers to requests go on for which a request was taken.
+    fn release(&mut self, state: &mut State) {
+        for &(answer, request) in &self.pairs {
+            let bit = 1u32 << answer;
+            let due = self.cursors[request].done > self.cursors[answer].done;
+            if self.tabled & bit == 0 {
+                state.unfinished = (state.unfinished & !bit) | (u32::from(due) << answer);
+            } else if due && state.unfinished & !state.offered & bit != 0 {
+                state.waiting |= bit;
             }
         }
-        Ok(())
     }
 }

@@ -45,10 +45,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Limits {
-        Limits {
-            watchdog: 5_000,
-            quiet: 64,
-        }
+        Limits { watchdog: 5_000, quiet: 64 }
     }
 }
 
@@ -112,11 +109,7 @@ impl Job<'_> {
     ) -> Result<(), JobError> {
         let count = |what, expected, found| match expected == found {
             true => Ok(()),
-            false => Err(JobError::Count {
-                what,
-                expected,
-                found,
-            }),
+            false => Err(JobError::Count { what, expected, found }),
         };
         count("static inputs", interface.statics.len(), self.statics.len())?;
         count("tables of streams", layout.streams.len(), self.tables.len())?;
@@ -126,20 +119,14 @@ impl Job<'_> {
         if !self.probes.is_empty() {
             count("tables of probes", layout.probed.len(), self.probes.len())?;
         }
-        let watched = probes.iter().flat_map(|probe| &probe.unit.streams);
+        let watched = probes.iter().flat_map(|probe| &probe.streams);
         let streams = interface.streams.iter().zip(self.tables);
         for (stream, table) in streams.chain(watched.zip(self.probes)) {
-            let (expected, found) = (
-                stream.fields.len(),
-                table.map_or(stream.fields.len(), Table::width),
-            );
+            let Some(table) = table.filter(|table| !table.is_empty()) else { continue };
+            let (expected, found) = (stream.fields.len(), table.width());
             if expected != found {
                 let stream = stream.name.to_owned();
-                return Err(JobError::Width {
-                    stream,
-                    expected,
-                    found,
-                });
+                return Err(JobError::Width { stream, expected, found });
             }
         }
         let inputs = interface.streams.iter().zip(self.tables);

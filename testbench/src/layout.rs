@@ -11,17 +11,17 @@ use wheatstone_golden::interface::{Direction, Interface, Stream};
 pub struct Probe {
     /// Where it is below the system's module, generate blocks included: `g_edges.u_edge`.
     pub instance: String,
-    /// The unit; all streams in its table are watched.
-    pub unit: Interface,
+    /// Its Verilog module.
+    pub module: &'static str,
+    /// The streams that are watched.
+    pub streams: Vec<Stream>,
 }
 
 impl Probe {
-    /// Watches all streams of an instance.
+    /// Watches all streams of an instance of a unit.
     pub fn new(instance: impl Into<String>, unit: &Interface) -> Probe {
-        Probe {
-            instance: instance.into(),
-            unit: unit.clone(),
-        }
+        let streams = unit.streams.clone();
+        Probe { instance: instance.into(), module: unit.module, streams }
     }
 }
 
@@ -132,7 +132,7 @@ impl Layout {
         }
         layout.ports = layout.signals.len();
         for (number, probe) in probes.iter().enumerate() {
-            for stream in &probe.unit.streams {
+            for stream in &probe.streams {
                 let signals = layout.add_stream(stream);
                 layout.probed.push((number, signals));
             }
@@ -159,16 +159,8 @@ impl Layout {
     }
 
     fn add(&mut self, name: &str, bits: u32, direction: Direction) {
-        let suffix = if direction == Direction::Input {
-            "i"
-        } else {
-            "o"
-        };
-        self.signals.push(Signal {
-            name: format!("{name}_{suffix}"),
-            bits,
-            direction,
-        });
+        let suffix = if direction == Direction::Input { "i" } else { "o" };
+        self.signals.push(Signal { name: format!("{name}_{suffix}"), bits, direction });
     }
 
     fn add_stream(&mut self, stream: &Stream) -> StreamSignals {
@@ -180,18 +172,9 @@ impl Layout {
         self.add(&format!("{}_valid", stream.name), 1, stream.direction);
         self.add(&format!("{}_ready", stream.name), 1, opposite);
         for field in &stream.fields {
-            self.add(
-                &format!("{}_{}", stream.name, field.name),
-                field.bits,
-                stream.direction,
-            );
+            self.add(&format!("{}_{}", stream.name, field.name), field.bits, stream.direction);
         }
         let direction = stream.direction;
-        StreamSignals {
-            direction,
-            width: stream.fields.len(),
-            answers: None,
-            first,
-        }
+        StreamSignals { direction, width: stream.fields.len(), answers: None, first }
     }
 }

@@ -4,7 +4,8 @@
 //! [`Bench`] is an instance of it and runs [`Job`]s: tables of beats for the inputs, tables of
 //! expected beats for the outputs, stall patterns. The [`Outcome`] is a pass with its counts,
 //! the first difference, or a model that hangs. [`cases`] says what the targets are fed;
-//! [`memory`] stands beside a system; [`pack`] writes and checks vector packs.
+//! [`memory`] stands beside a system; [`pack`] writes and checks vector packs; [`waves`] makes
+//! views of waveforms; [`tools`] finds the programs that all this needs.
 
 mod bench;
 pub mod cases;

@@ -30,6 +30,22 @@ struct Pair {
     wrong: u64,
 }
 
+/// Where a stream is in its table: shared with the shim, which moves it.
+#[repr(C)]
+pub(crate) struct Cursor {
+    row: *const u64,
+    end: *const u64,
+    stride: u64,
+    /// Beats taken.
+    pub done: u64,
+    /// Clocks on which a beat waited.
+    pub stalled: u64,
+    /// Cycle of the first beat.
+    pub first: u64,
+    /// Cycle of the last beat.
+    pub last: u64,
+}
+
 macro_rules! api {
     ($($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
         struct Api { $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)* }
@@ -53,9 +69,9 @@ api! {
     delete: fn(Handle);
     signal: fn(Handle, u32) -> *mut c_void;
     eval: fn(Handle);
-    cycle: fn(Handle, u32, u32, *const *const u64) -> Pair;
-    cycle_traced: fn(Handle, u32, u32, *const *const u64, u64) -> Pair;
-    probe: fn(Handle, *const *const u64) -> Pair;
+    cycle: fn(Handle, u64, u32, u64, *mut Cursor, *const u64) -> Pair;
+    cycle_traced: fn(Handle, u64, u32, u64, *mut Cursor, *const u64) -> Pair;
+    probe: fn(Handle, u64, u64, *mut Cursor) -> Pair;
     stopped: fn(Handle) -> *const c_char;
     trace_open: fn(Handle, *const c_char) -> bool;
     trace_flush: fn(Handle);
@@ -121,10 +137,7 @@ impl Library {
         probes: &[Probe],
         layout: Layout,
     ) -> Result<Library, LoadError> {
-        let at = |source| LoadError::Object {
-            path: path.to_owned(),
-            source,
-        };
+        let at = |source| LoadError::Object { path: path.to_owned(), source };
         // SAFETY: the object's initialisers are those of Verilator's runtime and the C++ library.
         let object = unsafe { Object::new(std::path::absolute(path).unwrap_or(path.to_owned())) }
             .map_err(at)?;
@@ -134,20 +147,12 @@ impl Library {
             CStr::from_ptr(key.map_err(at)?())
         };
         if found.to_bytes() != key.as_bytes() {
-            return Err(LoadError::Stale {
-                path: path.to_owned(),
-            });
+            return Err(LoadError::Stale { path: path.to_owned() });
         }
         // SAFETY: the key covers the text of the shim.
         let api = unsafe { Api::of(&object) }.map_err(at)?;
         let (interface, probes) = (interface.clone(), probes.to_vec());
-        Ok(Library(Arc::new(Loaded {
-            api,
-            interface,
-            probes,
-            layout,
-            _object: object,
-        })))
+        Ok(Library(Arc::new(Loaded { api, interface, probes, layout, _object: object })))
     }
 
     /// The module's interface.
@@ -165,63 +170,79 @@ impl Library {
     }
 }
 
-/// A row long enough for every stream, for streams that have none.
-static EMPTY_ROW: [u64; 256] = [0; 256];
+/// Most fields that a stream can have.
+pub(crate) const WORDS: usize = 256;
 
-/// The row that each stream offers or expects: the module's streams first, then the probes'.
-pub(crate) struct Rows<'a> {
-    pointers: Vec<*const u64>,
+/// Words for the longest row.
+pub(crate) type Words = [u64; WORDS];
+
+/// The cursors of all streams: the module's first, then those of the probes.
+pub(crate) struct Cursors<'a> {
+    cursors: Vec<Cursor>,
+    /// Rows that are not in a table, one a stream.
     own: Vec<Vec<u64>>,
     library: Library,
-    rows: PhantomData<&'a [u64]>,
+    tables: PhantomData<&'a [u64]>,
 }
 
-impl<'a> Rows<'a> {
-    /// Empty rows for the streams of a model.
-    pub fn new(library: &Library) -> Rows<'a> {
+impl<'a> Cursors<'a> {
+    /// Cursors at the beginning of the tables of all streams, which are given row after row.
+    pub fn new(library: &Library, tables: &[Option<&'a [u64]>]) -> Cursors<'a> {
         let layout = library.layout();
-        let probed = layout.probed.iter().map(|(_, stream)| stream);
-        let own: Vec<Vec<u64>> = layout
-            .streams
-            .iter()
-            .chain(probed)
-            .map(|s| vec![0; s.width])
-            .collect();
-        assert!(
-            own.iter().all(|row| row.len() <= EMPTY_ROW.len()),
-            "a stream has too many fields"
-        );
-        let pointers = vec![EMPTY_ROW.as_ptr(); own.len()];
-        Rows {
-            pointers,
-            own,
-            library: library.clone(),
-            rows: PhantomData,
-        }
+        let streams = layout.streams.iter().chain(layout.probed.iter().map(|(_, stream)| stream));
+        let own: Vec<Vec<u64>> = streams.map(|stream| vec![0; stream.width]).collect();
+        assert!(own.iter().all(|row| row.len() <= WORDS), "a stream has too many fields");
+        let table = |number: usize| tables.get(number).copied().flatten();
+        let cursor = |(number, own): (usize, &Vec<u64>)| {
+            let range = table(number).map(|table| {
+                assert!(table.len() % own.len().max(1) == 0, "a table has a broken row");
+                table.as_ptr_range()
+            });
+            Cursor {
+                row: range.as_ref().map_or(own.as_ptr(), |range| range.start),
+                end: range.as_ref().map_or(std::ptr::null(), |range| range.end),
+                stride: range.map_or(0, |_| own.len() as u64),
+                done: 0,
+                stalled: 0,
+                first: 0,
+                last: 0,
+            }
+        };
+        let cursors = own.iter().enumerate().map(cursor).collect();
+        Cursors { cursors, own, library: library.clone(), tables: PhantomData }
     }
 
-    /// Sets the row of a stream.
-    #[inline]
-    pub fn set(&mut self, stream: usize, row: &'a [u64]) {
-        assert!(row.len() >= self.own[stream].len(), "row too short");
-        self.pointers[stream] = row.as_ptr();
-    }
-
-    /// Sets the row of a stream to one kept here, which `write` fills in, unless it declines.
-    #[inline]
+    /// The row of a stream without a table, which `write` fills in, unless it declines.
     pub fn fill(&mut self, stream: usize, write: impl FnOnce(&mut [u64]) -> bool) -> bool {
         let filled = write(&mut self.own[stream]);
-        self.pointers[stream] = self.own[stream].as_ptr();
+        if self.cursors[stream].stride == 0 {
+            self.cursors[stream].row = self.own[stream].as_ptr();
+        }
         filled
+    }
+
+    fn of(&mut self, model: &Model) -> *mut Cursor {
+        assert!(Arc::ptr_eq(&self.library.0, &model.library.0), "cursors of another model");
+        self.cursors.as_mut_ptr()
+    }
+}
+
+impl std::ops::Index<usize> for Cursors<'_> {
+    type Output = Cursor;
+
+    #[inline]
+    fn index(&self, stream: usize) -> &Cursor {
+        &self.cursors[stream]
     }
 }
 
 /// What was seen in a cycle; bits are streams.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
-    /// `ready` of the inputs and `valid` of the outputs; for probes: beats taken.
+    /// `ready` of the inputs and `valid` of the outputs, and 32 bits higher the streams that
+    /// came to the end of their tables; for probes: beats taken.
     pub seen: u64,
-    /// Outputs (or probes) whose fields differ from their row.
+    /// Streams whose fields differ from their row, or that have none left.
     pub wrong: u64,
 }
 
@@ -235,7 +256,7 @@ pub struct Model {
     library: Library,
     handle: NonNull<c_void>,
     signals: Vec<NonNull<c_void>>,
-    /// Time that is written to the waveform file.
+    /// Cycles that are written to the waveform file.
     window: Range<u64>,
 }
 
@@ -253,10 +274,8 @@ impl Model {
         let mut message = [0u8; 512];
         let start = |message: &[u8]| LoadError::Start {
             module: library.interface().module.to_owned(),
-            message: CStr::from_bytes_until_nul(message).map_or_else(
-                |_| String::new(),
-                |text| text.to_string_lossy().into_owned(),
-            ),
+            message: CStr::from_bytes_until_nul(message)
+                .map_or_else(|_| String::new(), |text| text.to_string_lossy().into_owned()),
         };
         let api = &library.0.api;
         // SAFETY: the buffer is as long as said and begins with a zero.
@@ -270,12 +289,8 @@ impl Model {
         let signals = (0..count)
             .map(|index| NonNull::new(unsafe { (api.signal)(handle.as_ptr(), index) }))
             .collect::<Option<Vec<_>>>();
-        let mut model = Model {
-            library: library.clone(),
-            handle,
-            signals: Vec::new(),
-            window: 0..0,
-        };
+        let mut model =
+            Model { library: library.clone(), handle, signals: Vec::new(), window: 0..0 };
         model.signals = signals.ok_or_else(|| start(b"a port has no address\0"))?;
         Ok(model)
     }
@@ -323,10 +338,7 @@ impl Model {
     pub fn port(&self, name: &str) -> Option<u64> {
         let layout = self.library.layout();
         let ports = &layout.signals[..layout.ports];
-        ports
-            .iter()
-            .position(|port| port.name == name)
-            .map(|index| self.peek(index))
+        ports.iter().position(|port| port.name == name).map(|index| self.peek(index))
     }
 
     /// Lets the model settle after ports were set.
@@ -354,40 +366,35 @@ impl Model {
     }
 
     /// One clock: ends the cycle before with the rising edge, then drives `valid` of the inputs
-    /// and `ready` of the outputs from `drive`, sets the payload of the inputs in `pokes` from
-    /// their rows, settles, and compares the outputs with theirs.
+    /// and `ready` of the outputs from `drive`, sets the fields of inputs, settles, compares the
+    /// outputs with their rows, and moves the cursors of the streams that were taken. Inputs in
+    /// the lower half of `pokes` get their row, those in the upper half the first of `words`.
     #[inline]
-    pub(crate) fn cycle(&mut self, time: u64, drive: u32, pokes: u32, rows: &Rows<'_>) -> Seen {
-        assert!(
-            Arc::ptr_eq(&rows.library.0, &self.library.0),
-            "rows of another model"
-        );
-        let (api, handle, rows) = (
-            &self.library.0.api,
-            self.handle.as_ptr(),
-            rows.pointers.as_ptr(),
-        );
-        // SAFETY: there is a row for every stream of this model and each is long enough.
-        let Pair { seen, wrong } = unsafe {
-            if self.window.contains(&time) {
-                (api.cycle_traced)(handle, drive, pokes, rows, time)
-            } else {
-                (api.cycle)(handle, drive, pokes, rows)
-            }
-        };
+    pub(crate) fn cycle(
+        &mut self,
+        cycle: u64,
+        drive: u32,
+        pokes: u64,
+        cursors: &mut Cursors<'_>,
+        words: &Words,
+    ) -> Seen {
+        let (api, cursors) = (&self.library.0.api, cursors.of(self));
+        let run = if self.window.contains(&cycle) { api.cycle_traced } else { api.cycle };
+        // SAFETY: there is a cursor for every stream of this model; each is at a whole row of
+        // its stream, or at the end of its table, and the shim keeps it so. No row is longer
+        // than `words`.
+        let Pair { seen, wrong } =
+            unsafe { run(self.handle.as_ptr(), cycle, drive, pokes, cursors, words.as_ptr()) };
         Seen { seen, wrong }
     }
 
-    /// Looks at the streams of the probes.
+    /// Compares the beats taken on those streams of the probes that are `watched`.
     #[inline]
-    pub(crate) fn probe(&self, rows: &Rows<'_>) -> Seen {
-        assert!(
-            Arc::ptr_eq(&rows.library.0, &self.library.0),
-            "rows of another model"
-        );
-        // SAFETY: as in `cycle`; nothing is changed.
+    pub(crate) fn probe(&self, cycle: u64, watched: u64, cursors: &mut Cursors<'_>) -> Seen {
+        let cursors = cursors.of(self);
+        // SAFETY: as in `cycle`; of the model nothing is changed.
         let Pair { seen, wrong } =
-            unsafe { (self.library.0.api.probe)(self.handle.as_ptr(), rows.pointers.as_ptr()) };
+            unsafe { (self.library.0.api.probe)(self.handle.as_ptr(), cycle, watched, cursors) };
         Seen { seen, wrong }
     }
 
@@ -400,13 +407,10 @@ impl Model {
         }
     }
 
-    /// Opens a waveform file; cycles whose time is in `window` are written to it, until it is
+    /// Opens a waveform file; the cycles in `window` are written to it, until it is
     /// closed or the model dropped.
     pub(crate) fn trace_open(&mut self, path: &Path, window: Range<u64>) -> Result<(), TraceError> {
-        let error = |source| TraceError {
-            path: path.to_owned(),
-            source,
-        };
+        let error = |source| TraceError { path: path.to_owned(), source };
         std::fs::File::create(path).map_err(|source| error(Some(source)))?;
         let name = CString::new(path.as_os_str().as_bytes()).map_err(|_| error(None))?;
         // SAFETY: the handle lives, the name ends with a zero.
@@ -440,20 +444,11 @@ impl Model {
         beats: &[u64],
         limit: u64,
     ) -> u64 {
-        assert!(
-            gates.len().is_power_of_two(),
-            "stall patterns have a power of two as length"
-        );
+        assert!(gates.len().is_power_of_two(), "stall patterns have a power of two as length");
         let streams = &self.library.layout().streams;
-        assert_eq!(
-            beats.len(),
-            streams.len(),
-            "a number of beats for every stream"
-        );
-        let inputs = streams
-            .iter()
-            .zip(beats)
-            .filter(|(stream, _)| stream.direction == Direction::Input);
+        assert_eq!(beats.len(), streams.len(), "a number of beats for every stream");
+        let inputs =
+            streams.iter().zip(beats).filter(|(stream, _)| stream.direction == Direction::Input);
         let lengths = inputs.flat_map(|(stream, &beats)| std::iter::repeat_n(beats, stream.width));
         assert!(
             lengths.eq(columns.iter().map(|column| column.len() as u64)),

@@ -56,10 +56,7 @@ impl Counts {
 
     /// Beats of all outputs.
     pub fn compared(&self) -> u64 {
-        let outputs = self
-            .streams
-            .iter()
-            .filter(|s| s.direction == Direction::Output);
+        let outputs = self.streams.iter().filter(|s| s.direction == Direction::Output);
         outputs.map(|s| s.accepted).sum()
     }
 
@@ -165,11 +162,7 @@ pub struct Difference {
 
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Difference {
-            field,
-            expected,
-            actual,
-        } = self;
+        let Difference { field, expected, actual } = self;
         let (expected, actual) = (field.display(*expected), field.display(*actual));
         write!(f, "{} expected {expected}, got {actual}", field.name)
     }
@@ -196,19 +189,15 @@ pub struct Mismatch {
 
 impl fmt::Display for Mismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Mismatch {
-            place, beat, cycle, ..
-        } = self;
+        let Mismatch { place, beat, cycle, .. } = self;
         match &self.fault {
             Fault::Value => write!(f, "{place}, beat {beat}, cycle {cycle}: ")?,
-            Fault::Unstable => write!(
-                f,
-                "{place}, beat {beat} changed while it waited, cycle {cycle}: "
-            )?,
-            Fault::Withdrawn => write!(
-                f,
-                "{place}, beat {beat} was taken back while it waited, cycle {cycle}"
-            )?,
+            Fault::Unstable => {
+                write!(f, "{place}, beat {beat} changed while it waited, cycle {cycle}: ")?
+            }
+            Fault::Withdrawn => {
+                write!(f, "{place}, beat {beat} was taken back while it waited, cycle {cycle}")?
+            }
             Fault::Surplus => write!(f, "{place}, beat {beat} is one too many, cycle {cycle}")?,
             Fault::Missing => write!(f, "{place}, beat {beat} never came, cycle {cycle}")?,
             Fault::Flag => write!(f, "flag at the end, cycle {cycle}: ")?,
@@ -251,29 +240,14 @@ pub struct StreamState {
 
 impl fmt::Display for Hung {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "nothing moved for {} clocks, cycle {}:",
-            self.waited, self.cycle
-        )?;
+        write!(f, "nothing moved for {} clocks, cycle {}:", self.waited, self.cycle)?;
         for (number, stream) in self.streams.iter().enumerate() {
-            let StreamState {
-                place,
-                done,
-                valid,
-                ready,
-                ..
-            } = stream;
+            let StreamState { place, done, valid, ready, .. } = stream;
             write!(f, "{} {place} {done}", if number > 0 { "," } else { "" })?;
             if let Some(total) = stream.total {
                 write!(f, "/{total}")?;
             }
-            write!(
-                f,
-                " (valid {}, ready {})",
-                u8::from(*valid),
-                u8::from(*ready)
-            )?;
+            write!(f, " (valid {}, ready {})", u8::from(*valid), u8::from(*ready))?;
         }
         Ok(())
     }

@@ -54,46 +54,25 @@ pub enum PortError {
 pub(crate) fn check(module: &str, expected: &[Signal], header: &str) -> Result<(), PortError> {
     let mut found: BTreeMap<&str, (u32, Direction)> = header.lines().filter_map(port).collect();
     let module = || module.to_owned();
-    for Signal {
-        name,
-        bits,
-        direction,
-    } in expected
-    {
+    for Signal { name, bits, direction } in expected {
         let port = name.clone();
         match found.remove(name.as_str()) {
-            None => {
-                return Err(PortError::Missing {
-                    module: module(),
-                    port,
-                    bits: *bits,
-                })
-            }
+            None => return Err(PortError::Missing { module: module(), port, bits: *bits }),
             Some((width, _)) if width != *bits => {
                 let (expected, found) = (*bits, width);
-                return Err(PortError::Width {
-                    module: module(),
-                    port,
-                    expected,
-                    found,
-                });
+                return Err(PortError::Width { module: module(), port, expected, found });
             }
             Some((_, other)) if other != *direction => {
-                return Err(PortError::Direction {
-                    module: module(),
-                    port,
-                });
+                return Err(PortError::Direction { module: module(), port });
             }
             Some(_) => (),
         }
     }
     match found.pop_first() {
         None => Ok(()),
-        Some((port, (found, _))) => Err(PortError::Unknown {
-            module: module(),
-            port: port.to_owned(),
-            found,
-        }),
+        Some((port, (found, _))) => {
+            Err(PortError::Unknown { module: module(), port: port.to_owned(), found })
+        }
     }
 }
 
@@ -127,11 +106,7 @@ mod tests {
     V___024root* const rootp;";
 
     fn signal(name: &str, bits: u32, direction: Direction) -> Signal {
-        Signal {
-            name: name.to_owned(),
-            bits,
-            direction,
-        }
+        Signal { name: name.to_owned(), bits, direction }
     }
 
     fn expected() -> Vec<Signal> {
@@ -156,21 +131,12 @@ mod tests {
             check("m", &ports, HEADER).unwrap_err().to_string()
         };
         let missing = message(|p| p[1].name = "y_i".to_owned());
-        assert_eq!(
-            missing,
-            "module m has no port y_i; its interface has one of 11 bits"
-        );
+        assert_eq!(missing, "module m has no port y_i; its interface has one of 11 bits");
         let width = message(|p| p[1].bits = 12);
-        assert_eq!(
-            width,
-            "port x_i of module m has 11 bits, its interface says 12"
-        );
+        assert_eq!(width, "port x_i of module m has 11 bits, its interface says 12");
         let direction = message(|p| p[2].direction = Direction::Input);
         assert_eq!(direction, "port x_o of module m has the wrong direction");
         let unknown = message(|p| drop(p.pop()));
-        assert_eq!(
-            unknown,
-            "module m has a port wide_o of 80 bits that its interface lacks"
-        );
+        assert_eq!(unknown, "module m has a port wide_o of 80 bits that its interface lacks");
     }
 }

@@ -7,13 +7,33 @@ use wheatstone_golden::texture::Lookup;
 
 /// Choices of a run that are not built into the hardware, as the command line names them.
 pub const RUN_PARAMETERS: [Parameter; 7] = [
-    run("cost_rule", &["on", "off"], "draw monocular where deriving takes more beats; off: derive wherever possible"),
-    run("specular", &["exception", "approximation", "integrated"], "highlights that the eyes see differently"),
-    run("sampling", &["automatic", "nearest", "average"], "colour of a secondary pixel; automatic averages textures only"),
-    run("display", &["normal", "flipped", "interleaved", "above-below", "rotated"], "arrangement of the views"),
+    run(
+        "cost_rule",
+        &["on", "off"],
+        "draw monocular where deriving takes more beats; off: derive wherever possible",
+    ),
+    run(
+        "specular",
+        &["exception", "approximation", "integrated"],
+        "highlights that the eyes see differently",
+    ),
+    run(
+        "sampling",
+        &["automatic", "nearest", "average"],
+        "colour of a secondary pixel; automatic averages textures only",
+    ),
+    run(
+        "display",
+        &["normal", "flipped", "interleaved", "above-below", "rotated"],
+        "arrangement of the views",
+    ),
     run("displays", &["2", "1"], "both eyes to a display each, or to one"),
     run("texture", &["nearest", "bilinear"], "lookup of texels in the primary pipeline"),
-    run("latency", &["random", "1", "2", "4", "8", "16", "32"], "clocks from a background read to its answer"),
+    run(
+        "latency",
+        &["random", "1", "2", "4", "8", "16", "32"],
+        "clocks from a background read to its answer",
+    ),
 ];
 
 const fn run(name: &'static str, values: &'static [&'static str], help: &'static str) -> Parameter {
@@ -77,7 +97,8 @@ impl Settings {
         let mut choices = Vec::new();
         for parameter in parameters {
             let text = parameter.as_ref();
-            let (name, value) = text.split_once('=').ok_or_else(|| SettingError::Form(text.into()))?;
+            let (name, value) =
+                text.split_once('=').ok_or_else(|| SettingError::Form(text.into()))?;
             let refused = |values: &[&str]| SettingError::Value {
                 name: name.into(),
                 value: value.into(),
@@ -118,7 +139,8 @@ impl Settings {
                     [Specular::Exception, Specular::Approximation, Specular::Integrated][index];
             }
             "sampling" => {
-                options.sampling = [Sampling::Automatic, Sampling::Nearest, Sampling::Average][index];
+                options.sampling =
+                    [Sampling::Automatic, Sampling::Nearest, Sampling::Average][index];
             }
             "display" => {
                 options.arrangement = [
@@ -142,12 +164,16 @@ mod tests {
 
     #[test]
     fn parameters_are_applied_and_refused_by_name() {
-        let message = |parameter: &str| Settings::new("default", &[parameter]).unwrap_err().to_string();
+        let message =
+            |parameter: &str| Settings::new("default", &[parameter]).unwrap_err().to_string();
         assert!(message("slots").contains("expected NAME=VALUE"));
         assert!(message("slot=4").contains("there are: subpixel_bits, filter"));
         assert!(message("slots=5").contains("takes one of: 2, 4, 8, 16, 32"));
         assert!(message("specular=integrated").contains("integrated=on"));
-        assert!(Settings::new("fast", &["a=b"]).unwrap_err().to_string().contains("default, paper, full"));
+        assert!(Settings::new("fast", &["a=b"])
+            .unwrap_err()
+            .to_string()
+            .contains("default, paper, full"));
         let settings = Settings::new("paper", &["slots=32", "cost_rule=off", "latency=8"]).unwrap();
         assert_eq!((settings.config.slots, settings.latency), (32, Some(8)));
         assert!(!settings.options.cost_rule);

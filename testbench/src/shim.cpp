@@ -33,9 +33,29 @@ void raise(const char* what, const char* file, int line) {
 
 struct Fatal {};
 
+// Two words that fit the registers of a result.
 struct Pair {
     uint64_t seen;
     uint64_t wrong;
+};
+
+// Where a stream is in its table. `row` is what is offered or expected next; at `end` there is
+// nothing to be read. Without a table `stride` is 0: `row` is then fixed, or means nothing.
+struct Cursor {
+    const uint64_t* row;
+    const uint64_t* end;
+    uint64_t stride;
+    uint64_t done;
+    uint64_t stalled;
+    uint64_t first;
+    uint64_t last;
+
+    void advance(uint64_t cycle) {
+        if (!done) first = cycle;
+        ++done;
+        last = cycle;
+        row += stride;
+    }
 };
 
 }  // namespace
@@ -121,11 +141,26 @@ void* find(Handle& h, const char* scope, const char* name, int bits) {
 }
 
 void bind(Handle& h);
-void poke(V___024root* root, uint32_t which, const uint64_t* const* rows);
+void poke(V___024root* root, uint32_t which, const Cursor* cursors);
+void scramble(V___024root* root, uint32_t which, const uint64_t* words);
 void drive(V___024root* root, uint32_t bits);
 uint64_t sense(const V___024root* root);
-uint64_t compare(const V___024root* root, uint64_t seen, const uint64_t* const* rows);
-Pair probe(const Handle& h, const uint64_t* const* rows);
+uint64_t compare(const V___024root* root, uint64_t seen, const Cursor* cursors);
+uint64_t advance(uint64_t taken, uint64_t waiting, uint64_t cycle, Cursor* cursors);
+Pair probe(const Handle& h, uint64_t cycle, uint64_t watched, Cursor* cursors);
+
+// The end of a clock: compares what the outputs offer with the rows expected and moves the
+// cursors of the streams that were taken and right. The upper half of `seen` tells which of
+// them came to the end of their tables.
+inline Pair judge(Handle* h, uint64_t cycle, uint64_t drives, Cursor* cursors) {
+    h->collect();
+    if (VL_UNLIKELY(h->stopped)) return {0, STOPPED};
+    const uint64_t seen = sense(h->root);
+    const uint64_t wrong = compare(h->root, seen, cursors);
+    const uint64_t waiting = (INPUTS & drives & ~seen) | (OUTPUTS & seen & ~drives);
+    const uint64_t ended = advance(drives & seen & ~wrong, waiting, cycle, cursors);
+    return {seen | ended << 32, wrong};
+}
 
 }  // namespace
 
@@ -167,49 +202,54 @@ API void wheatstone_eval(Handle* h) {
     h->guarded([=] { h->top->eval(); });
 }
 
-// One clock: finishes the cycle before with the rising edge, applies the inputs of this cycle,
-// lets everything settle, and compares what the outputs offer with the expected rows.
-API Pair wheatstone_cycle(Handle* h, uint32_t drives, uint32_t pokes, const uint64_t* const* rows) {
+// Applies the inputs of a cycle. The lower half of `pokes` are inputs that offer their row, the
+// upper half those that offer nothing and get random words.
+inline void apply(V___024root* root, uint32_t drives, uint64_t pokes, const Cursor* cursors, const uint64_t* words) {
+    poke(root, pokes, cursors);
+    if (pokes >> 32) scramble(root, pokes >> 32, words);
+    drive(root, drives);
+}
+
+// One clock: finishes the cycle before with the rising edge, applies the inputs of this cycle
+// and lets everything settle.
+API Pair wheatstone_cycle(Handle* h, uint64_t cycle, uint32_t drives, uint64_t pokes, Cursor* cursors,
+                          const uint64_t* words) {
     V___024root* const root = h->root;
     if (VL_UNLIKELY(h->dead)) return {0, STOPPED};
     try {
         root->clk_i = 1;
         ROOT_EVAL(root);
-        if (pokes) poke(root, pokes, rows);
-        drive(root, drives);
+        apply(root, drives, pokes, cursors, words);
         root->clk_i = 0;
         ROOT_EVAL(root);
     } catch (const Fatal&) {
         h->dead = true;
     }
-    h->collect();
-    if (VL_UNLIKELY(h->stopped)) return {0, STOPPED};
-    const uint64_t seen = sense(root);
-    return {seen, compare(root, seen, rows)};
+    return judge(h, cycle, drives, cursors);
 }
 
-// The same with a trace: inputs change with the clock's rising edge in the middle of which
+// The same with a trace: inputs change with the clock's rising edge, at the falling edge
 // everything is settled, as in a textbook. The additional evaluation has no edge.
-API Pair wheatstone_cycle_traced(Handle* h, uint32_t drives, uint32_t pokes, const uint64_t* const* rows,
-                                 uint64_t time) {
+API Pair wheatstone_cycle_traced(Handle* h, uint64_t cycle, uint32_t drives, uint64_t pokes, Cursor* cursors,
+                                 const uint64_t* words) {
     V___024root* const root = h->root;
     h->guarded([=] {
         root->clk_i = 1;
         h->top->eval();
-        if (pokes) poke(root, pokes, rows);
-        drive(root, drives);
+        apply(root, drives, pokes, cursors, words);
         h->top->eval();
-        if (h->trace) h->trace->dump(time);
+        if (h->trace) h->trace->dump(10 * cycle);
         root->clk_i = 0;
         h->top->eval();
-        if (h->trace) h->trace->dump(time + 5);
+        if (h->trace) h->trace->dump(10 * cycle + 5);
     });
-    if (h->stopped) return {0, STOPPED};
-    const uint64_t seen = sense(root);
-    return {seen, compare(root, seen, rows)};
+    return judge(h, cycle, drives, cursors);
 }
 
-API Pair wheatstone_probe(const Handle* h, const uint64_t* const* rows) { return probe(*h, rows); }
+// Compares the beats taken inside the module and moves their cursors.
+API Pair wheatstone_probe(const Handle* h, uint64_t cycle, uint64_t watched, Cursor* cursors) {
+    return probe(*h, cycle, watched, cursors);
+}
 
 API const char* wheatstone_stopped(const Handle* h) { return h->stopped ? h->text : nullptr; }
 
@@ -217,6 +257,8 @@ API bool wheatstone_trace_open(Handle* h, const char* path) {
     h->guarded([=] {
         h->trace.reset(new VerilatedFstC);
         h->top->trace(h->trace.get(), 99);
+        h->trace->set_time_unit("1ns");
+        h->trace->set_time_resolution("1ns");
         h->trace->open(path);
     });
     return h->trace && h->trace->isOpen();

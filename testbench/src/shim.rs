@@ -18,8 +18,11 @@ pub(crate) const PRINT_HEADER: &str =
 /// The whole shim, but for the list of Verilator's files that it includes.
 pub(crate) fn text(interface: &Interface, probes: &[Probe], layout: &Layout) -> String {
     let mut text = format!(
-        "#define ROOT_EVAL {PREFIX}___024root___eval\n#define SIGNALS {}\n{}\nnamespace {{\n\n",
+        "#define ROOT_EVAL {PREFIX}___024root___eval\n#define SIGNALS {}\n\
+         #define INPUTS {:#x}ull\n#define OUTPUTS {:#x}ull\n{}\nnamespace {{\n\n",
         layout.signals.len(),
+        layout.mask(Direction::Input),
+        layout.mask(Direction::Output),
         include_str!("shim.cpp"),
     );
     bind(&mut text, interface, probes, layout);
@@ -27,6 +30,7 @@ pub(crate) fn text(interface: &Interface, probes: &[Probe], layout: &Layout) -> 
     drive(&mut text, layout);
     sense(&mut text, layout);
     compare(&mut text, layout);
+    advance(&mut text, layout);
     probe(&mut text, layout);
     text.push_str("}  // namespace\n\n");
     bench(&mut text, layout);
@@ -39,15 +43,7 @@ pub(crate) fn head(files: &[String], key: &str) -> String {
     for file in files {
         let _ = writeln!(text, "#include \"{file}\"");
     }
-    let standard = [
-        "atomic",
-        "cstdarg",
-        "cstdio",
-        "cstring",
-        "memory",
-        "stdexcept",
-        "string",
-    ];
+    let standard = ["atomic", "cstdarg", "cstdio", "cstring", "memory", "stdexcept", "string"];
     for header in standard {
         let _ = writeln!(text, "#include <{header}>");
     }
@@ -65,7 +61,7 @@ pub(crate) fn control_file(probes: &[Probe], layout: &Layout) -> String {
         .iter()
         .flat_map(|(number, stream)| stream.signals().map(move |signal| (number, signal)))
         .map(|(&number, signal)| {
-            let (module, name) = (probes[number].unit.module, &layout.signals[signal].name);
+            let (module, name) = (probes[number].module, &layout.signals[signal].name);
             format!("public_flat_rd -module \"{module}\" -var \"{name}\"\n")
         })
         .collect();
@@ -108,32 +104,34 @@ fn bind(text: &mut String, interface: &Interface, probes: &[Probe], layout: &Lay
 }
 
 fn streams(layout: &Layout, direction: Direction) -> impl Iterator<Item = (usize, &StreamSignals)> {
-    layout
-        .streams
-        .iter()
-        .enumerate()
-        .filter(move |(_, stream)| stream.direction == direction)
+    layout.streams.iter().enumerate().filter(move |(_, stream)| stream.direction == direction)
 }
 
+/// Both ways to set the fields of inputs: from their rows, and from the same words for all.
 fn poke(text: &mut String, layout: &Layout) {
-    text.push_str(
-        "inline void poke(V___024root* root, uint32_t which, const uint64_t* const* rows) {\n",
-    );
-    for (bit, stream) in streams(layout, Direction::Input) {
-        let _ = writeln!(text, "    if (which >> {bit} & 1) {{");
-        let _ = writeln!(text, "        const uint64_t* const row = rows[{bit}];");
-        for field in 0..stream.width {
-            let signal = &layout.signals[stream.field(field)];
-            let mask = mask(signal);
-            let _ = writeln!(
-                text,
-                "        root->{} = row[{field}] & {mask};",
-                signal.name
-            );
+    for (head, row) in [
+        ("poke(V___024root* root, uint32_t which, const Cursor* cursors)", true),
+        ("scramble(V___024root* root, uint32_t which, const uint64_t* words)", false),
+    ] {
+        let _ = writeln!(text, "inline void {head} {{");
+        for (bit, stream) in streams(layout, Direction::Input) {
+            let _ = match row {
+                true => writeln!(
+                    text,
+                    "    if ((which >> {bit} & 1) && cursors[{bit}].row != cursors[{bit}].end) {{\n        \
+                     const uint64_t* const words = cursors[{bit}].row;"
+                ),
+                false => writeln!(text, "    if (which >> {bit} & 1) {{"),
+            };
+            for field in 0..stream.width {
+                let signal = &layout.signals[stream.field(field)];
+                let mask = mask(signal);
+                let _ = writeln!(text, "        root->{} = words[{field}] & {mask};", signal.name);
+            }
+            text.push_str("    }\n");
         }
-        text.push_str("    }\n");
+        text.push_str("}\n\n");
     }
-    text.push_str("}\n\n");
 }
 
 fn drive(text: &mut String, layout: &Layout) {
@@ -149,46 +147,56 @@ fn sense(text: &mut String, layout: &Layout) {
     text.push_str("inline uint64_t sense(const V___024root* root) {\n    uint64_t seen = 0;\n");
     for (bit, stream) in layout.streams.iter().enumerate() {
         let name = &layout.signals[stream.answered()].name;
-        let _ = writeln!(
-            text,
-            "    seen |= static_cast<uint64_t>(root->{name}) << {bit};"
-        );
+        let _ = writeln!(text, "    seen |= static_cast<uint64_t>(root->{name}) << {bit};");
     }
     text.push_str("    return seen;\n}\n\n");
 }
 
-/// C++ that is true where any field of a stream differs from `row`.
-fn differs(stream: &StreamSignals, value: impl Fn(usize) -> String) -> String {
+/// C++ that is true where a stream has no beat left or any field differs from it.
+fn differs(cursor: &str, stream: &StreamSignals, value: impl Fn(usize) -> String) -> String {
     let terms: Vec<String> = (0..stream.width)
-        .map(|i| format!("({} ^ row[{i}])", value(stream.field(i))))
+        .map(|i| format!("({} ^ {cursor}.row[{i}])", value(stream.field(i))))
         .collect();
-    if terms.is_empty() {
-        "false".to_owned()
-    } else {
-        format!("({}) != 0", terms.join(" | "))
-    }
+    let terms = if terms.is_empty() { "0".to_owned() } else { terms.join(" | ") };
+    format!("{cursor}.row == {cursor}.end || (({terms}) != 0 && {cursor}.stride)")
 }
 
 fn compare(text: &mut String, layout: &Layout) {
     text.push_str(
-        "inline uint64_t compare(const V___024root* root, uint64_t seen, \
-         const uint64_t* const* rows) {\n    uint64_t wrong = 0;\n",
+        "inline uint64_t compare(const V___024root* root, uint64_t seen, const Cursor* cursors) {\n    \
+         uint64_t wrong = 0;\n",
     );
     for (bit, stream) in streams(layout, Direction::Output) {
         let value = |index: usize| format!("root->{}", layout.signals[index].name);
-        let differs = differs(stream, value);
-        let _ = writeln!(
-            text,
-            "    if (seen >> {bit} & 1) {{\n        const uint64_t* const row = rows[{bit}];\n        \
-             wrong |= static_cast<uint64_t>({differs}) << {bit};\n    }}"
-        );
+        let differs = differs(&format!("cursors[{bit}]"), stream, value);
+        let _ =
+            writeln!(text, "    if ((seen >> {bit} & 1) && ({differs})) wrong |= 1ull << {bit};");
     }
     text.push_str("    return wrong;\n}\n\n");
 }
 
+fn advance(text: &mut String, layout: &Layout) {
+    text.push_str(
+        "inline uint64_t advance(uint64_t taken, uint64_t waiting, uint64_t cycle, Cursor* cursors) {\n    \
+         uint64_t ended = 0;\n",
+    );
+    for bit in 0..layout.streams.len() {
+        let _ = writeln!(
+            text,
+            "    if (taken >> {bit} & 1) {{\n        cursors[{bit}].advance(cycle);\n        \
+             ended |= static_cast<uint64_t>(cursors[{bit}].row == cursors[{bit}].end) << {bit};\n    }}"
+        );
+    }
+    text.push_str("    if (waiting) {\n");
+    for bit in 0..layout.streams.len() {
+        let _ = writeln!(text, "        cursors[{bit}].stalled += waiting >> {bit} & 1;");
+    }
+    text.push_str("    }\n    return ended;\n}\n\n");
+}
+
 fn probe(text: &mut String, layout: &Layout) {
     text.push_str(
-        "inline Pair probe(const Handle& h, const uint64_t* const* rows) {\n    \
+        "inline Pair probe(const Handle& h, uint64_t cycle, uint64_t watched, Cursor* cursors) {\n    \
          uint64_t taken = 0, wrong = 0;\n",
     );
     for (bit, (_, stream)) in layout.probed.iter().enumerate() {
@@ -197,13 +205,13 @@ fn probe(text: &mut String, layout: &Layout) {
             format!("*static_cast<const {ctype}*>(h.signals[{index}])")
         };
         let (valid, ready) = (value(stream.valid()), value(stream.ready()));
-        let differs = differs(stream, value);
-        let row = layout.streams.len() + bit;
+        let cursor = format!("cursors[{}]", layout.streams.len() + bit);
+        let differs = differs(&cursor, stream, value);
         let _ = writeln!(
             text,
-            "    if ({valid} & {ready}) {{\n        const uint64_t* const row = rows[{row}];\n        \
+            "    if ((watched >> {bit} & 1) && ({valid} & {ready})) {{\n        \
              taken |= 1ull << {bit};\n        \
-             wrong |= static_cast<uint64_t>({differs}) << {bit};\n    }}"
+             if ({differs}) wrong |= 1ull << {bit};\n        else {cursor}.advance(cycle);\n    }}"
         );
     }
     text.push_str("    return {taken, wrong};\n}\n\n");
@@ -247,10 +255,7 @@ fn bench(text: &mut String, layout: &Layout) {
         );
         for field in 0..stream.width {
             let port = name(stream.field(field));
-            let _ = writeln!(
-                text,
-                "            top->{port} = columns[{column}][done{bit}];"
-            );
+            let _ = writeln!(text, "            top->{port} = columns[{column}][done{bit}];");
             column += 1;
         }
         let valid = name(stream.valid());
@@ -275,24 +280,13 @@ fn bench(text: &mut String, layout: &Layout) {
             ),
         };
     }
-    let _ = writeln!(
-        text,
-        "        top->{clock} = 1;\n        top->eval();\n        ++cycle;"
-    );
-    let done: Vec<String> = (0..layout.streams.len())
-        .map(|bit| format!("done{bit} >= beats[{bit}]"))
-        .collect();
-    let done = if done.is_empty() {
-        "false".to_owned()
-    } else {
-        done.join(" && ")
-    };
+    let _ = writeln!(text, "        top->{clock} = 1;\n        top->eval();\n        ++cycle;");
+    let done: Vec<String> =
+        (0..layout.streams.len()).map(|bit| format!("done{bit} >= beats[{bit}]")).collect();
+    let done = if done.is_empty() { "false".to_owned() } else { done.join(" && ") };
     let _ = writeln!(text, "        if ({done}) break;\n    }}");
     for stream in &layout.streams {
         let _ = writeln!(text, "    top->{} = 0;", name(stream.driven()));
     }
-    let _ = writeln!(
-        text,
-        "    top->{clock} = 0;\n    top->eval();\n    return cycle;\n}}"
-    );
+    let _ = writeln!(text, "    top->{clock} = 0;\n    top->eval();\n    return cycle;\n}}");
 }

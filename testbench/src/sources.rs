@@ -65,14 +65,8 @@ mod tests {
     fn the_closure_is_transitive_and_leaves_the_rest_alone() {
         let folder = tempfile::tempdir().unwrap();
         for (name, text) in [
-            (
-                "top.v",
-                "module top; `include \"formats.vh\"\n unit #(.A(1)) u(.b(c)); endmodule",
-            ),
-            (
-                "unit.v",
-                "module unit; leaf u(); initial $readmemh(\"table.mem\", m); endmodule",
-            ),
+            ("top.v", "module top; `include \"formats.vh\"\n unit #(.A(1)) u(.b(c)); endmodule"),
+            ("unit.v", "module unit; leaf u(); initial $readmemh(\"table.mem\", m); endmodule"),
             ("leaf.v", "module leaf; endmodule"),
             ("formats.vh", "`define ROM rom"),
             ("rom.v", "module rom; endmodule"),
@@ -83,16 +77,6 @@ mod tests {
         }
         let sources = read(folder.path(), "top").map_err(|e| e.source).unwrap();
         let names: Vec<&str> = sources.keys().map(String::as_str).collect();
-        assert_eq!(
-            names,
-            [
-                "formats.vh",
-                "leaf.v",
-                "rom.v",
-                "table.mem",
-                "top.v",
-                "unit.v"
-            ]
-        );
+        assert_eq!(names, ["formats.vh", "leaf.v", "rom.v", "table.mem", "top.v", "unit.v"]);
     }
 }

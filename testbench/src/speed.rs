@@ -5,7 +5,6 @@ use crate::bench::Bench;
 use crate::job::{Job, JobError};
 use crate::model::{Library, LoadError};
 use crate::outcome::Outcome;
-use crate::stalls::Stalls;
 use std::time::Instant;
 use thiserror::Error;
 use wheatstone_golden::interface::{Direction, Table};
@@ -53,19 +52,13 @@ pub fn compare_speed(library: &Library, job: &Job<'_>, rounds: usize) -> Result<
     for (stream, table) in streams.iter().zip(job.tables) {
         tables.push((stream, table.ok_or(SpeedError::NoTable(stream.name))?));
     }
-    let inputs = tables
-        .iter()
-        .filter(|(stream, _)| stream.direction == Direction::Input);
+    let inputs = tables.iter().filter(|(stream, _)| stream.direction == Direction::Input);
     let columns: Vec<Vec<u64>> = inputs.flat_map(|(_, table)| columns(table)).collect();
     let beats: Vec<u64> = tables.iter().map(|(_, table)| table.len() as u64).collect();
-    let gates = job
-        .stalls
-        .gates(streams.len(), library.layout().mask(Direction::Input));
-    debug_assert_eq!(gates.len(), Stalls::PERIOD);
-
     let mut speed = Speed::default();
     for round in 0..rounds {
         let mut bench = Bench::new(library, round as u64)?;
+        let gates = bench.prepare(job.stalls).to_vec();
         let start = Instant::now();
         let outcome = bench.run(job)?;
         let time = start.elapsed().as_secs_f64();
@@ -78,9 +71,7 @@ pub fn compare_speed(library: &Library, job: &Job<'_>, rounds: usize) -> Result<
         let limit = 2 * counts.simulated + 1_000;
         let start = Instant::now();
         speed.clocks = bench.model_mut().bench(&gates, &columns, &beats, limit);
-        speed.cpp = speed
-            .cpp
-            .max(speed.clocks as f64 / start.elapsed().as_secs_f64());
+        speed.cpp = speed.cpp.max(speed.clocks as f64 / start.elapsed().as_secs_f64());
     }
     Ok(speed)
 }
@@ -88,13 +79,5 @@ pub fn compare_speed(library: &Library, job: &Job<'_>, rounds: usize) -> Result<
 /// The fields of a table, one after another.
 fn columns(table: &Table) -> impl Iterator<Item = Vec<u64>> + '_ {
     let width = table.width();
-    (0..width).map(move |field| {
-        table
-            .values()
-            .iter()
-            .skip(field)
-            .step_by(width)
-            .copied()
-            .collect()
-    })
+    (0..width).map(move |field| table.values().iter().skip(field).step_by(width).copied().collect())
 }

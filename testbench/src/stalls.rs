@@ -47,34 +47,35 @@ impl Pattern {
 
     /// The pattern of that name.
     pub fn named(name: &str) -> Option<Pattern> {
-        Pattern::ALL
-            .into_iter()
-            .find(|pattern| pattern.name() == name)
+        Pattern::ALL.into_iter().find(|pattern| pattern.name() == name)
     }
 
-    /// For every clock whether the stream may go on.
+    /// For every clock whether the stream may go on; `clocks` is a multiple of 64.
     fn bits(self, clocks: usize, random: &mut Rng) -> BitVec<u64, Lsb0> {
-        let mut bits = BitVec::with_capacity(clocks);
-        while bits.len() < clocks {
-            match self {
-                Pattern::None => bits.push(true),
-                Pattern::Random25 => bits.push(random.u8(..4) >= 1),
-                Pattern::Random50 => bits.push(random.bool()),
-                Pattern::Random75 => bits.push(random.u8(..4) >= 3),
-                Pattern::Bursts => {
-                    let (go, stall) = (random.usize(1..=32), random.usize(1..=32));
-                    bits.resize(bits.len() + go, true);
-                    bits.resize(bits.len() + stall, false);
-                }
-                Pattern::Gaps => {
-                    bits.resize(bits.len() + random.usize(1..=16), true);
-                    bits.push(false);
-                }
-            }
+        let words = |word: &mut dyn FnMut() -> u64| {
+            BitVec::from_vec((0..clocks / 64).map(|_| word()).collect())
+        };
+        match self {
+            Pattern::None => words(&mut || u64::MAX),
+            Pattern::Random25 => words(&mut || random.u64(..) | random.u64(..)),
+            Pattern::Random50 => words(&mut || random.u64(..)),
+            Pattern::Random75 => words(&mut || random.u64(..) & random.u64(..)),
+            Pattern::Bursts => runs(clocks, || (random.usize(1..=32), random.usize(1..=32))),
+            Pattern::Gaps => runs(clocks, || (random.usize(1..=16), 1)),
         }
-        bits.truncate(clocks);
-        bits
     }
+}
+
+/// Runs of ones and of zeros, by turns.
+fn runs(clocks: usize, mut lengths: impl FnMut() -> (usize, usize)) -> BitVec<u64, Lsb0> {
+    let mut bits = BitVec::with_capacity(clocks + 64);
+    while bits.len() < clocks {
+        let (ones, zeros) = lengths();
+        bits.resize(bits.len() + ones, true);
+        bits.resize(bits.len() + zeros, false);
+    }
+    bits.truncate(clocks);
+    bits
 }
 
 /// The stalls of one run: one pattern for all inputs, one for all outputs, different bits for each.
@@ -90,22 +91,14 @@ pub struct Stalls {
 
 impl Stalls {
     /// No stalls at all.
-    pub const NONE: Stalls = Stalls {
-        idle: Pattern::None,
-        back_pressure: Pattern::None,
-        seed: 0,
-    };
+    pub const NONE: Stalls = Stalls { idle: Pattern::None, back_pressure: Pattern::None, seed: 0 };
     /// Clocks after which the bits repeat: a power of two.
     pub const PERIOD: usize = 1 << 14;
 
     /// Every idle pattern with every back-pressure pattern.
     pub fn crossed(seed: u64) -> impl Iterator<Item = Stalls> {
         Pattern::ALL.into_iter().flat_map(move |idle| {
-            Pattern::ALL.into_iter().map(move |back_pressure| Stalls {
-                idle,
-                back_pressure,
-                seed,
-            })
+            Pattern::ALL.into_iter().map(move |back_pressure| Stalls { idle, back_pressure, seed })
         })
     }
 
@@ -114,15 +107,13 @@ impl Stalls {
     pub(crate) fn gates(&self, streams: usize, inputs: u32) -> Vec<u32> {
         let mut gates = vec![0u32; Stalls::PERIOD];
         for stream in 0..streams {
-            let pattern = if inputs >> stream & 1 == 1 {
-                self.idle
-            } else {
-                self.back_pressure
-            };
+            let pattern = if inputs >> stream & 1 == 1 { self.idle } else { self.back_pressure };
             let mut random = Rng::with_seed(self.seed.wrapping_mul(0x9e37_79b9) + stream as u64);
             let bits = pattern.bits(gates.len(), &mut random);
-            for clock in bits.iter_ones() {
-                gates[clock] |= 1 << stream;
+            for (gates, &word) in gates.chunks_mut(64).zip(bits.as_raw_slice()) {
+                for (clock, gate) in gates.iter_mut().enumerate() {
+                    *gate |= ((word >> clock & 1) as u32) << stream;
+                }
             }
         }
         gates
@@ -143,11 +134,7 @@ mod tests {
             (Pattern::Bursts, 0.42..0.58),
             (Pattern::Gaps, 0.85..0.93),
         ] {
-            let stalls = Stalls {
-                idle: pattern,
-                back_pressure: Pattern::None,
-                seed: 7,
-            };
+            let stalls = Stalls { idle: pattern, back_pressure: Pattern::None, seed: 7 };
             let gates = stalls.gates(2, 1);
             let go = gates.iter().filter(|gate| **gate & 1 == 1).count();
             let found = go as f64 / gates.len() as f64;

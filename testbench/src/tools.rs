@@ -19,13 +19,12 @@ pub struct Version {
 impl Version {
     /// The first `digits.digits` in a program's answer.
     pub fn parse(text: &str) -> Option<Version> {
-        text.split(|c: char| !c.is_ascii_digit() && c != '.')
-            .find_map(|word| {
-                let mut numbers = word.split('.');
-                let major = numbers.next()?.parse().ok()?;
-                let minor = numbers.next()?.parse().ok()?;
-                Some(Version { major, minor })
-            })
+        text.split(|c: char| !c.is_ascii_digit() && c != '.').find_map(|word| {
+            let mut numbers = word.split('.');
+            let major = numbers.next()?.parse().ok()?;
+            let minor = numbers.next()?.parse().ok()?;
+            Some(Version { major, minor })
+        })
     }
 }
 
@@ -68,20 +67,11 @@ impl Tool {
         let text = first_line(&program, self.version_arguments, path);
         let version = text.as_deref().and_then(Version::parse);
         match (self.oldest, version) {
-            (Some(oldest), Some(found)) if found < oldest => Err(ToolError::TooOld {
-                tool: self,
-                found,
-                program,
-            }),
-            (Some(_), None) => Err(ToolError::Unusable {
-                tool: self,
-                program,
-            }),
-            _ => Ok(Found {
-                program,
-                version,
-                text: text.unwrap_or_default(),
-            }),
+            (Some(oldest), Some(found)) if found < oldest => {
+                Err(ToolError::TooOld { tool: self, found, program })
+            }
+            (Some(_), None) => Err(ToolError::Unusable { tool: self, program }),
+            _ => Ok(Found { program, version, text: text.unwrap_or_default() }),
         }
     }
 }
@@ -108,10 +98,7 @@ static ICARUS: Tool = Tool {
     program: "iverilog",
     purpose: "replay of vectors, cross-check",
     optional: true,
-    oldest: Some(Version {
-        major: 11,
-        minor: 0,
-    }),
+    oldest: Some(Version { major: 11, minor: 0 }),
     package: "iverilog",
     version_arguments: &["-V"],
 };
@@ -119,10 +106,7 @@ static VVP: Tool = Tool {
     program: "vvp",
     purpose: "replay of vectors, cross-check",
     optional: true,
-    oldest: Some(Version {
-        major: 11,
-        minor: 0,
-    }),
+    oldest: Some(Version { major: 11, minor: 0 }),
     package: "iverilog",
     version_arguments: &["-V"],
 };
@@ -199,16 +183,9 @@ pub enum ToolError {
 
 /// First non-empty line that a program prints on its standard output.
 fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Option<String> {
-    let output = Command::new(program)
-        .args(arguments)
-        .env("PATH", path)
-        .output()
-        .ok()?;
+    let output = Command::new(program).args(arguments).env("PATH", path).output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout);
-    text.lines()
-        .map(str::trim)
-        .find(|line| !line.is_empty())
-        .map(str::to_owned)
+    text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
 }
 
 /// The folders in which programs are looked for.
@@ -241,16 +218,10 @@ impl Toolchain {
         let root = first_line(&verilator.program, &["--getenv", "VERILATOR_ROOT"], path);
         let include = root.map(|root| Path::new(&root).join("include"));
         match include.filter(|folder| folder.join("verilated.cpp").is_file()) {
-            Some(include) => Ok(Toolchain {
-                verilator,
-                gxx,
-                include,
-                path: path.to_owned(),
-            }),
-            None => Err(ToolError::Unusable {
-                tool: &VERILATOR,
-                program: verilator.program.clone(),
-            }),
+            Some(include) => Ok(Toolchain { verilator, gxx, include, path: path.to_owned() }),
+            None => {
+                Err(ToolError::Unusable { tool: &VERILATOR, program: verilator.program.clone() })
+            }
         }
     }
 
@@ -270,16 +241,11 @@ impl Toolchain {
 /// Asks the compiler for the header of zlib.
 fn zlib_header(gxx: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
     let arguments = ["-E", "-M", "-x", "c++", "-include", "zlib.h", "/dev/null"];
-    let output = Command::new(&gxx.program)
-        .args(arguments)
-        .env("PATH", path)
-        .output();
+    let output = Command::new(&gxx.program).args(arguments).env("PATH", path).output();
     let output = output.ok().filter(|output| output.status.success());
     let output = output.ok_or(ToolError::Missing(&ZLIB))?;
     let text = String::from_utf8_lossy(&output.stdout);
-    let header = text
-        .split_whitespace()
-        .find(|word| word.ends_with("/zlib.h"));
+    let header = text.split_whitespace().find(|word| word.ends_with("/zlib.h"));
     header.map(PathBuf::from).ok_or(ToolError::Missing(&ZLIB))
 }
 
@@ -310,35 +276,20 @@ impl Doctor {
         let programs = [&VERILATOR, &GXX, &ICARUS, &VVP, &YOSYS, &GTKWAVE];
         let mut rows: Vec<Examined> = programs
             .into_iter()
-            .map(|tool| Examined {
-                tool,
-                result: tool.find_in(path),
-            })
+            .map(|tool| Examined { tool, result: tool.find_in(path) })
             .collect();
         let zlib = match &rows[1].result {
             Ok(gxx) => zlib_header(gxx, path),
             Err(_) => Err(ToolError::Missing(&ZLIB)),
         };
-        let zlib = zlib.map(|program| Found {
-            program,
-            version: None,
-            text: String::new(),
-        });
-        rows.insert(
-            2,
-            Examined {
-                tool: &ZLIB,
-                result: zlib,
-            },
-        );
+        let zlib = zlib.map(|program| Found { program, version: None, text: String::new() });
+        rows.insert(2, Examined { tool: &ZLIB, result: zlib });
         Doctor { rows }
     }
 
     /// Whether everything that co-simulation needs is there.
     pub fn is_ready(&self) -> bool {
-        self.rows
-            .iter()
-            .all(|row| row.tool.optional || row.result.is_ok())
+        self.rows.iter().all(|row| row.tool.optional || row.result.is_ok())
     }
 }
 
@@ -349,11 +300,7 @@ impl fmt::Display for Doctor {
         table.set_header(["tool", "needed for", "found", "to install"]);
         for Examined { tool, result } in &self.rows {
             let found = match result {
-                Ok(Found {
-                    program,
-                    version: Some(version),
-                    ..
-                }) => {
+                Ok(Found { program, version: Some(version), .. }) => {
                     format!("{} {}", tool.spell(*version), program.display())
                 }
                 Ok(Found { program, .. }) => program.display().to_string(),
@@ -361,18 +308,9 @@ impl fmt::Display for Doctor {
                 Err(ToolError::TooOld { found, .. }) => format!("{}: too old", tool.spell(*found)),
                 Err(ToolError::Unusable { .. }) => "does not run".to_owned(),
             };
-            let install = if result.is_ok() {
-                String::new()
-            } else {
-                tool.install_command()
-            };
+            let install = if result.is_ok() { String::new() } else { tool.install_command() };
             let purpose = if tool.optional { "optional: " } else { "" };
-            table.add_row([
-                tool.program,
-                &format!("{purpose}{}", tool.purpose),
-                &found,
-                &install,
-            ]);
+            table.add_row([tool.program, &format!("{purpose}{}", tool.purpose), &found, &install]);
         }
         write!(f, "{table}")
     }
@@ -386,21 +324,12 @@ mod tests {
     fn versions_are_read_from_what_the_tools_print() {
         let version = |major, minor| Some(Version { major, minor });
         let of = Version::parse;
-        assert_eq!(
-            of("Verilator 5.006 2023-01-22 rev (Debian 5.006-3)"),
-            version(5, 6)
-        );
+        assert_eq!(of("Verilator 5.006 2023-01-22 rev (Debian 5.006-3)"), version(5, 6));
         assert_eq!(of("Verilator 4.228 2022-10-01"), version(4, 228));
         assert_eq!(of("12.2.0"), version(12, 2));
-        assert_eq!(
-            of("Icarus Verilog version 11.0 (stable) ()"),
-            version(11, 0)
-        );
+        assert_eq!(of("Icarus Verilog version 11.0 (stable) ()"), version(11, 0));
         assert_eq!(of("Yosys 0.23 (git sha1 7ce5011c24b)"), version(0, 23));
-        assert_eq!(
-            of("GTKWave Analyzer v3.3.118 (w)1999-2023 BSI"),
-            version(3, 3)
-        );
+        assert_eq!(of("GTKWave Analyzer v3.3.118 (w)1999-2023 BSI"), version(3, 3));
         assert_eq!(of("Could not initialize GTK!"), None);
     }
 
@@ -417,24 +346,12 @@ mod tests {
     fn an_old_verilator_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let program = folder.path().join("verilator");
-        std::fs::write(
-            &program,
-            "#!/bin/sh\necho 'Verilator 4.038 2020-07-11 rev v4.036'\n",
-        )
-        .unwrap();
+        std::fs::write(&program, "#!/bin/sh\necho 'Verilator 4.038 2020-07-11 rev v4.036'\n")
+            .unwrap();
         let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
         std::fs::set_permissions(&program, mode).unwrap();
         let error = Toolchain::find_in(folder.path().as_os_str()).unwrap_err();
-        assert!(matches!(
-            error,
-            ToolError::TooOld {
-                found: Version {
-                    major: 4,
-                    minor: 38
-                },
-                ..
-            }
-        ));
+        assert!(matches!(error, ToolError::TooOld { found: Version { major: 4, minor: 38 }, .. }));
         let text = error.to_string();
         assert!(
             text.contains("apt-get install verilator")

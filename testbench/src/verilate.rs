@@ -154,11 +154,7 @@ impl Builder {
 
     /// A builder that keeps its models in the folder `cache`, created when needed.
     pub fn new(tools: Toolchain, cache: impl Into<PathBuf>) -> Builder {
-        Builder {
-            tools,
-            cache: cache.into(),
-            progress: Box::new(|_| ()),
-        }
+        Builder { tools, cache: cache.into(), progress: Box::new(|_| ()) }
     }
 
     /// Calls `report` on every step of a build, possibly from several threads.
@@ -170,10 +166,8 @@ impl Builder {
     /// The model, from the cache or built now, loaded.
     pub fn build(&self, spec: &Spec<'_>) -> Result<Library, BuildError> {
         let module = spec.interface.module;
-        let sources = sources::read(spec.rtl, module).map_err(|e| BuildError::Source {
-            path: e.path,
-            source: e.source,
-        })?;
+        let sources = sources::read(spec.rtl, module)
+            .map_err(|e| BuildError::Source { path: e.path, source: e.source })?;
         let layout = Layout::new(spec.interface, spec.probes);
         let job = Job {
             builder: self,
@@ -201,13 +195,7 @@ impl Builder {
                 (self.progress)(Progress::Built(module, start.elapsed()));
             }
         }
-        Ok(Library::load(
-            &object,
-            &key,
-            spec.interface,
-            spec.probes,
-            layout,
-        )?)
+        Ok(Library::load(&object, &key, spec.interface, spec.probes, layout)?)
     }
 
     /// The objects of Verilator's runtime, compiled once per compiler and flags.
@@ -219,9 +207,7 @@ impl Builder {
         }
         let key = short(&hash);
         let folder = self.cache.join(format!("runtime-{key}"));
-        let objects = RUNTIME
-            .map(|name| folder.join(format!("{name}.o")))
-            .to_vec();
+        let objects = RUNTIME.map(|name| folder.join(format!("{name}.o"))).to_vec();
         if folder.is_dir() {
             return Ok(objects);
         }
@@ -236,9 +222,7 @@ impl Builder {
         write(&temporary.join("print.h"), shim::PRINT_HEADER.as_bytes())?;
         for name in RUNTIME {
             let mut command = self.compiler(&temporary);
-            command
-                .arg("-c")
-                .arg(self.tools.include.join(format!("{name}.cpp")));
+            command.arg("-c").arg(self.tools.include.join(format!("{name}.cpp")));
             command.arg("-o").arg(format!("{name}.o"));
             let log = self.cache.join(format!("runtime-{key}.log"));
             run(command, "g++", "verilator's runtime", &log)?;
@@ -250,15 +234,8 @@ impl Builder {
     /// g++ with the flags of every compilation, working in `folder`, where `print.h` is.
     fn compiler(&self, folder: &Path) -> Command {
         let mut command = self.tools.command(&self.tools.gxx);
-        command
-            .current_dir(folder)
-            .args(GXX_FLAGS)
-            .args(["-include", "print.h"]);
-        command
-            .arg("-I")
-            .arg(&self.tools.include)
-            .arg("-I")
-            .arg(self.tools.include.join("vltstd"));
+        command.current_dir(folder).args(GXX_FLAGS).args(["-include", "print.h"]);
+        command.arg("-I").arg(&self.tools.include).arg("-I").arg(self.tools.include.join("vltstd"));
         command
     }
 
@@ -267,11 +244,7 @@ impl Builder {
         let mut hash = blake3::Hasher::new();
         let tools = [&self.tools.verilator, &self.tools.gxx];
         for tool in tools {
-            entry(
-                &mut hash,
-                tool.program.as_os_str().as_encoded_bytes(),
-                tool.text.as_bytes(),
-            );
+            entry(&mut hash, tool.program.as_os_str().as_encoded_bytes(), tool.text.as_bytes());
         }
         for flag in VERILATOR_FLAGS.iter().chain(GXX_FLAGS) {
             entry(&mut hash, b"flag", flag.as_bytes());
@@ -328,10 +301,8 @@ impl Job<'_> {
         run(command, "verilator", module, &log)?;
 
         let header = temporary.join("cpp").join(format!("{PREFIX}.h"));
-        let text = fs::read_to_string(&header).map_err(|source| BuildError::Cache {
-            path: header,
-            source,
-        })?;
+        let text = fs::read_to_string(&header)
+            .map_err(|source| BuildError::Cache { path: header, source })?;
         ports::check(module, &self.layout.signals[..self.layout.ports], &text)?;
 
         let files = cpp_files(&temporary.join("cpp"))?;
@@ -368,17 +339,10 @@ fn absolute(path: &Path) -> PathBuf {
 
 /// The C++ files that Verilator wrote, sorted.
 fn cpp_files(folder: &Path) -> Result<Vec<String>, BuildError> {
-    let at = |source| BuildError::Cache {
-        path: folder.to_owned(),
-        source,
-    };
+    let at = |source| BuildError::Cache { path: folder.to_owned(), source };
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(at)? {
-        let name = entry
-            .map_err(at)?
-            .file_name()
-            .to_string_lossy()
-            .into_owned();
+        let name = entry.map_err(at)?.file_name().to_string_lossy().into_owned();
         if name.ends_with(".cpp") {
             files.push(name);
         }
@@ -405,29 +369,13 @@ fn run(
     write(log, &text)?;
     let text = String::from_utf8_lossy(&text);
     let all: Vec<&str> = text.lines().collect();
-    let first = all
-        .iter()
-        .position(|line| line.contains("rror"))
-        .unwrap_or(0);
-    let lines = all[first..]
-        .iter()
-        .take(8)
-        .copied()
-        .collect::<Vec<_>>()
-        .join("\n");
-    Err(BuildError::Failed {
-        tool,
-        module: module.to_owned(),
-        lines,
-        log: log.to_owned(),
-    })
+    let first = all.iter().position(|line| line.contains("rror")).unwrap_or(0);
+    let lines = all[first..].iter().take(8).copied().collect::<Vec<_>>().join("\n");
+    Err(BuildError::Failed { tool, module: module.to_owned(), lines, log: log.to_owned() })
 }
 
 fn fresh_folder(path: &Path) -> Result<(), BuildError> {
-    let at = |source| BuildError::Cache {
-        path: path.to_owned(),
-        source,
-    };
+    let at = |source| BuildError::Cache { path: path.to_owned(), source };
     match fs::remove_dir_all(path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => return Err(at(source)),
         _ => (),
@@ -438,17 +386,11 @@ fn fresh_folder(path: &Path) -> Result<(), BuildError> {
 fn write(path: &Path, content: &[u8]) -> Result<(), BuildError> {
     File::create(path)
         .and_then(|mut file| file.write_all(content))
-        .map_err(|source| BuildError::Cache {
-            path: path.to_owned(),
-            source,
-        })
+        .map_err(|source| BuildError::Cache { path: path.to_owned(), source })
 }
 
 fn rename(from: &Path, to: &Path) -> Result<(), BuildError> {
-    fs::rename(from, to).map_err(|source| BuildError::Cache {
-        path: to.to_owned(),
-        source,
-    })
+    fs::rename(from, to).map_err(|source| BuildError::Cache { path: to.to_owned(), source })
 }
 
 /// A lock between threads and processes, given back when dropped.
@@ -459,10 +401,7 @@ struct Lock {
 impl Lock {
     fn take(folder: &Path, name: &str) -> Result<Lock, BuildError> {
         let path = folder.join(name);
-        let at = |source| BuildError::Cache {
-            path: path.clone(),
-            source,
-        };
+        let at = |source| BuildError::Cache { path: path.clone(), source };
         fs::create_dir_all(folder).map_err(at)?;
         let file = File::create(&path).map_err(at)?;
         file.lock().map_err(at)?;

@@ -1,6 +1,297 @@
-//! Views of waveforms.
-use crate::{TraceError, Probe};
-use std::path::Path;
-use wheatstone_golden::interface::Interface;
-/// stub until the real one is merged
-pub fn write_views(_: &Path, _: &Interface, _: &[Probe], _: Option<u64>) -> Result<(), TraceError> { Ok(()) }
+//! Views of waveforms: for every dump a save file of GTKWave and a command file of Surfer, with
+//! the signals grouped by stream and shown as what they are.
+//!
+//! Verilog has no fractions and no names for codes; a viewer shows them only if told for each
+//! signal. The tables of the interface know them.
+
+use crate::job::TraceWindow;
+use crate::layout::Probe;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use wheatstone_golden::interface::{Direction, Field, Interface, Kind, Stream};
+
+/// What a view shows.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// The module that was simulated.
+    pub interface: &'a Interface,
+    /// Units inside it, each with the streams to be shown.
+    pub units: &'a [Probe],
+    /// A cycle to be marked, with a name for the marker.
+    pub marker: Option<(u64, &'a str)>,
+}
+
+/// The files written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ViewFiles {
+    /// Save file of GTKWave: `gtkwave FILE` opens the dump with it.
+    pub gtkwave: PathBuf,
+    /// Command file of Surfer: `surfer -c FILE`.
+    pub surfer: PathBuf,
+    /// Signals shown.
+    pub signals: usize,
+    /// Signals of the tables that the dump does not have.
+    pub missing: Vec<String>,
+}
+
+/// A view could not be made.
+#[derive(Debug, Error)]
+pub enum WaveError {
+    /// The dump could not be read.
+    #[error("cannot read the waveform {}: {why}", .path.display())]
+    Dump {
+        /// The dump.
+        path: PathBuf,
+        /// Why.
+        why: String,
+    },
+    /// The dump has no values: it was never completed, or its window was never reached.
+    #[error("the waveform {} is empty", .0.display())]
+    Empty(PathBuf),
+    /// A file could not be written.
+    #[error("cannot write {}: {source}", .path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// A signal with its place in the dump.
+struct Line {
+    /// Name in the dump, with the range of a vector.
+    name: String,
+    kind: Kind,
+    bits: u32,
+}
+
+/// Signals under a title.
+struct Group {
+    title: String,
+    lines: Vec<Line>,
+}
+
+/// Writes the views `<dump>.gtkw` and `<dump>.sucl` beside a dump.
+pub fn write_views(dump: &Path, view: &View<'_>) -> Result<ViewFiles, WaveError> {
+    let names = names(dump)?;
+    let mut missing = Vec::new();
+    let groups = groups(view, &names, &mut missing);
+    let dump = std::path::absolute(dump).unwrap_or_else(|_| dump.to_owned());
+    let files = ViewFiles {
+        gtkwave: dump.with_extension("gtkw"),
+        surfer: dump.with_extension("sucl"),
+        signals: groups.iter().map(|group| group.lines.len()).sum(),
+        missing,
+    };
+    let filters = write_filters(&dump, &groups)?;
+    write(&files.gtkwave, &gtkwave(&dump, &files.gtkwave, view, &groups, &filters))?;
+    write(&files.surfer, &surfer(&dump, view, &groups))?;
+    Ok(files)
+}
+
+/// The signals of a dump: path to path with range.
+fn names(dump: &Path) -> Result<BTreeMap<String, String>, WaveError> {
+    let error = |why: String| WaveError::Dump { path: dump.to_owned(), why };
+    // A dump that was never closed has an unfinished header, on which its reader stumbles: the
+    // last number of the header counts the blocks of values.
+    let mut header = [0u8; 73];
+    let mut file = fs::File::open(dump).map_err(|e| error(e.to_string()))?;
+    if file.read_exact(&mut header).is_err() || header[65..] == [0; 8] {
+        return Err(WaveError::Empty(dump.to_owned()));
+    }
+    let waveform = wellen::simple::read(dump).map_err(|e| error(e.to_string()))?;
+    // Without any value the writer leaves one time, 0; every cycle has two.
+    if waveform.time_table().len() < 2 {
+        return Err(WaveError::Empty(dump.to_owned()));
+    }
+    let hierarchy = waveform.hierarchy();
+    let name = |var: &wellen::Var| {
+        let path = var.full_name(hierarchy);
+        let range = var.index().map(|range| format!("[{}:{}]", range.msb(), range.lsb()));
+        (path.clone(), path + &range.unwrap_or_default())
+    };
+    Ok(hierarchy.iter_vars().map(name).collect())
+}
+
+/// The groups of a view: clock and statics, the module's streams, its flags, then the units.
+fn groups(
+    view: &View<'_>,
+    names: &BTreeMap<String, String>,
+    missing: &mut Vec<String>,
+) -> Vec<Group> {
+    let top = format!("TOP.{}", view.interface.module);
+    let mut group = |title: String, scope: &str, signals: Vec<(String, Kind, u32)>| {
+        let mut lines = Vec::new();
+        for (name, kind, bits) in signals {
+            let path = format!("{scope}.{name}");
+            match names.get(&path) {
+                Some(name) => lines.push(Line { name: name.clone(), kind, bits }),
+                None => missing.push(path),
+            }
+        }
+        Group { title, lines }
+    };
+    let field =
+        |field: &Field, suffix: &str| (format!("{}_{suffix}", field.name), field.kind, field.bits);
+    let mut first: Vec<_> =
+        ["clk_i", "rst_i"].map(|name| (name.to_owned(), Kind::Flag, 1)).to_vec();
+    first.extend(view.interface.statics.iter().map(|f| field(f, "i")));
+    first.extend(view.interface.flags.iter().map(|f| field(f, "o")));
+    let mut groups = vec![group(view.interface.module.to_owned(), &top, first)];
+    for stream in &view.interface.streams {
+        groups.push(group(stream.name.to_owned(), &top, signals(stream)));
+    }
+    for unit in view.units {
+        let scope = format!("{top}.{}", unit.instance);
+        for stream in &unit.streams {
+            let title = format!("{}.{}", unit.instance, stream.name);
+            groups.push(group(title, &scope, signals(stream)));
+        }
+    }
+    groups.retain(|group| !group.lines.is_empty());
+    groups
+}
+
+/// The ports of a stream: handshake, then fields.
+fn signals(stream: &Stream) -> Vec<(String, Kind, u32)> {
+    let (forth, back) = match stream.direction {
+        Direction::Input => ("i", "o"),
+        Direction::Output => ("o", "i"),
+    };
+    let name = stream.name;
+    let mut signals = vec![
+        (format!("{name}_valid_{forth}"), Kind::Flag, 1),
+        (format!("{name}_ready_{back}"), Kind::Flag, 1),
+    ];
+    let fields = stream.fields.iter();
+    signals.extend(fields.map(|f| (format!("{name}_{}_{forth}", f.name), f.kind, f.bits)));
+    signals
+}
+
+/// One file for each set of names: a line a code, in binary.
+fn write_filters(dump: &Path, groups: &[Group]) -> Result<BTreeMap<Codes, PathBuf>, WaveError> {
+    let mut filters = BTreeMap::new();
+    for line in groups.iter().flat_map(|group| &group.lines) {
+        let Kind::Code(names) = line.kind else { continue };
+        let codes = (names, line.bits);
+        if filters.contains_key(&codes) {
+            continue;
+        }
+        let path = dump.with_extension(format!("codes{}.txt", filters.len()));
+        let mut text = String::new();
+        for (code, name) in names.iter().enumerate() {
+            let _ = writeln!(text, "{code:0width$b} {name}", width = line.bits as usize);
+        }
+        write(&path, &text)?;
+        filters.insert(codes, path);
+    }
+    Ok(filters)
+}
+
+/// Names of codes, and their width.
+type Codes = (&'static [&'static str], u32);
+
+fn gtkwave(
+    dump: &Path,
+    save: &Path,
+    view: &View<'_>,
+    groups: &[Group],
+    filters: &BTreeMap<Codes, PathBuf>,
+) -> String {
+    let mut text = String::new();
+    let _ = writeln!(text, "[*] {}, written by wheatstone", view.interface.module);
+    let _ = writeln!(text, "[dumpfile] \"{}\"\n[savefile] \"{}\"", dump.display(), save.display());
+    let marker = view.marker.map(|(cycle, name)| (TraceWindow::time(cycle), name));
+    let (time, named) = marker.map_or((0, "-1".to_owned()), |(time, _)| (time, time.to_string()));
+    // About 15 clocks across the window, the marked one at two thirds.
+    let _ =
+        writeln!(text, "[timestart] {}\n[size] 1600 1000\n[pos] -1 -1", time.saturating_sub(105));
+    let main = if marker.is_some() { time.to_string() } else { "-1".to_owned() };
+    let _ = writeln!(text, "*-4.7 {main} {named}{}", " -1".repeat(25));
+    if let Some((_, name)) = marker {
+        let _ = writeln!(text, "[markername_long] A {name}");
+    }
+    let _ = writeln!(text, "[treeopen] TOP.\n[sst_expanded] 0\n[signals_width] 360");
+    for group in groups {
+        let _ = writeln!(text, "@200\n-{}", group.title);
+        for line in &group.lines {
+            let format = match line.kind {
+                Kind::Flag => "@28".to_owned(),
+                Kind::Colour => "@22".to_owned(),
+                Kind::Code(names) => match filters.get(&(names, line.bits)) {
+                    Some(path) => format!("@2028\n^1 {}", path.display()),
+                    None => "@28".to_owned(),
+                },
+                Kind::Number { signed: false, fraction: 0 } => "@24".to_owned(),
+                Kind::Number { signed: true, fraction: 0 } => "@420".to_owned(),
+                Kind::Number { signed, fraction } => {
+                    let flags = if signed { "@40000420" } else { "@40000024" };
+                    format!("{flags}\n[fpshift_count] {fraction}")
+                }
+            };
+            let _ = writeln!(text, "{format}\n{}", line.name);
+        }
+    }
+    text
+}
+
+fn surfer(dump: &Path, view: &View<'_>, groups: &[Group]) -> String {
+    let mut text = format!("load_file {}\n", dump.display());
+    let mut item = 0;
+    for group in groups {
+        let _ = writeln!(text, "divider_add {}", group.title);
+        item += 1;
+        for line in &group.lines {
+            let name = line.name.split('[').next().unwrap_or(&line.name);
+            let format = match line.kind {
+                Kind::Flag => None,
+                Kind::Colour => Some("Hexadecimal"),
+                Kind::Number { signed: true, .. } => Some("Signed"),
+                Kind::Number { .. } | Kind::Code(_) => Some("Unsigned"),
+            };
+            let _ = writeln!(text, "variable_add {name}");
+            if let Some(format) = format {
+                let _ = writeln!(text, "item_focus {}\nitem_set_format {format}", letters(item));
+            }
+            item += 1;
+        }
+    }
+    text.push_str("item_unfocus\n");
+    if let Some((cycle, name)) = view.marker {
+        let time = TraceWindow::time(cycle);
+        let name = name.replace(' ', "_");
+        let _ = writeln!(text, "cursor_set {time}\nmarker_set {name} {time}\ngoto_cursor");
+    }
+    text
+}
+
+/// Surfer numbers its items with letters: a, b, … z, ba, bb, ….
+fn letters(mut number: usize) -> String {
+    let mut letters = Vec::new();
+    loop {
+        letters.push(char::from(b'a' + (number % 26) as u8));
+        number /= 26;
+        if number == 0 {
+            return letters.into_iter().rev().collect();
+        }
+    }
+}
+
+fn write(path: &Path, text: &str) -> Result<(), WaveError> {
+    fs::write(path, text).map_err(|source| WaveError::Write { path: path.to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::letters;
+
+    #[test]
+    fn surfer_counts_with_letters() {
+        assert_eq!([0, 1, 25, 26, 27, 52].map(letters), ["a", "b", "z", "ba", "bb", "ca"]);
+    }
+}

@@ -9,11 +9,7 @@ use wheatstone_testbench::{
 };
 
 fn back_pressure(pattern: Pattern) -> Stalls {
-    Stalls {
-        idle: Pattern::None,
-        back_pressure: pattern,
-        seed: 5,
-    }
+    Stalls { idle: Pattern::None, back_pressure: pattern, seed: 5 }
 }
 
 fn mismatch(outcome: Outcome) -> Mismatch {
@@ -28,9 +24,7 @@ fn a_good_model_passes_under_every_stall() {
     let sums = sums(3_000, 1);
     for stalls in Stalls::crossed(9) {
         let outcome = run_adder(0, &sums, stalls);
-        let counts = outcome
-            .passed()
-            .unwrap_or_else(|| panic!("{stalls:?}: {outcome}"));
+        let counts = outcome.passed().unwrap_or_else(|| panic!("{stalls:?}: {outcome}"));
         assert_eq!(counts.compared(), 3_000);
         assert_eq!(counts.stream("term").unwrap().accepted, 3_000);
         if stalls.idle == Pattern::None && stalls.back_pressure == Pattern::None {
@@ -45,42 +39,26 @@ fn a_good_model_passes_under_every_stall() {
 fn a_wrong_value_is_found_on_its_beat_field_and_cycle() {
     let sums = sums(500, 2);
     let found = mismatch(run_adder(1, &sums, Stalls::NONE));
-    assert_eq!(
-        (&found.fault, found.place.to_string().as_str()),
-        (&Fault::Value, "sum")
-    );
+    assert_eq!((&found.fault, found.place.to_string().as_str()), (&Fault::Value, "sum"));
     assert_eq!((found.beat, found.cycle), (100, 101));
-    let [difference] = &found.differences[..] else {
-        panic!("{found}")
-    };
+    let [difference] = &found.differences[..] else { panic!("{found}") };
     assert_eq!(difference.field.name, "value");
     assert_eq!(difference.expected ^ difference.actual, 0x20);
     assert_eq!(found.expected, sums.sum.row(100));
     // The beat is the same whatever the stalls; the cycle is not.
     let stalled = mismatch(run_adder(1, &sums, back_pressure(Pattern::Random75)));
-    assert_eq!(
-        (stalled.beat, &stalled.differences),
-        (100, &found.differences)
-    );
+    assert_eq!((stalled.beat, &stalled.differences), (100, &found.differences));
     assert!(stalled.cycle > 101);
 }
 
 #[test]
 fn a_model_that_stops_taking_beats_hangs() {
     let sums = sums(500, 3);
-    let Outcome::Hung(hung) = run_adder(2, &sums, Stalls::NONE) else {
-        panic!("not hung")
-    };
-    assert_eq!(
-        (hung.streams[0].done, hung.streams[0].total),
-        (100, Some(500))
-    );
+    let Outcome::Hung(hung) = run_adder(2, &sums, Stalls::NONE) else { panic!("not hung") };
+    assert_eq!((hung.streams[0].done, hung.streams[0].total), (100, Some(500)));
     assert!(hung.streams[0].valid && !hung.streams[0].ready && !hung.streams[1].valid);
     let text = hung.to_string();
-    assert!(
-        text.contains("term 100/500 (valid 1, ready 0), sum 100/500"),
-        "{text}"
-    );
+    assert!(text.contains("term 100/500 (valid 1, ready 0), sum 100/500"), "{text}");
 }
 
 #[test]
@@ -88,9 +66,7 @@ fn a_lost_beat_is_a_difference_and_at_the_end_a_hang() {
     let found = mismatch(run_adder(8, &sums(500, 3), Stalls::NONE));
     assert_eq!(found.beat, 100);
     let outcome = run_adder(8, &sums(101, 3), Stalls::NONE);
-    let Outcome::Hung(hung) = outcome else {
-        panic!("{outcome}")
-    };
+    let Outcome::Hung(hung) = outcome else { panic!("{outcome}") };
     assert_eq!((hung.streams[0].done, hung.streams[1].done), (101, 100));
 }
 
@@ -98,9 +74,7 @@ fn a_lost_beat_is_a_difference_and_at_the_end_a_hang() {
 fn finish_assertions_and_endless_loops_end_the_run_not_the_process() {
     for (bug, text) in [(3, "$finish at "), (7, "count is 100"), (9, "converge")] {
         let found = mismatch(run_adder(bug, &sums(500, 4), Stalls::NONE));
-        let Fault::Stopped(why) = &found.fault else {
-            panic!("{found}")
-        };
+        let Fault::Stopped(why) = &found.fault else { panic!("{found}") };
         assert!(why.contains(text) && why.contains("sam_adder.v:"), "{why}");
         assert!((99..103).contains(&found.cycle), "{found}");
     }
@@ -131,33 +105,19 @@ fn a_beat_too_many_is_found() {
 #[test]
 fn a_wrong_flag_is_found_at_the_end() {
     let found = mismatch(run_adder(10, &sums(500, 8), Stalls::NONE));
-    assert_eq!(
-        (&found.fault, found.place.to_string().as_str()),
-        (&Fault::Flag, "error")
-    );
-    assert_eq!(
-        (found.differences[0].expected, found.differences[0].actual),
-        (1, 0)
-    );
+    assert_eq!((&found.fault, found.place.to_string().as_str()), (&Fault::Flag, "error"));
+    assert_eq!((found.differences[0].expected, found.differences[0].actual), (1, 0));
 }
 
 #[test]
 fn a_unit_inside_a_system_is_named() {
     let sums = sums(500, 9);
-    let watched = [
-        Some(&sums.term),
-        Some(&sums.sum),
-        Some(&sums.second_term),
-        Some(&sums.second_sum),
-    ];
+    let watched =
+        [Some(&sums.term), Some(&sums.sum), Some(&sums.second_term), Some(&sums.second_sum)];
     let run = |bug| {
         let library = model(&chain(bug), &probes());
         let mut bench = Bench::new(&library, 1).unwrap();
-        let stalls = Stalls {
-            idle: Pattern::Gaps,
-            back_pressure: Pattern::Random50,
-            seed: 3,
-        };
+        let stalls = Stalls { idle: Pattern::Gaps, back_pressure: Pattern::Random50, seed: 3 };
         let job = Job {
             statics: &[BIAS],
             tables: &[Some(&sums.term), Some(&sums.second_sum)],
@@ -173,20 +133,12 @@ fn a_unit_inside_a_system_is_named() {
     assert_eq!((counts.compared(), counts.probed), (500, 2_000));
     let found = mismatch(run(1));
     assert_eq!(found.place.to_string(), "u_first.sum");
-    assert_eq!(
-        (found.beat, found.differences[0].field.name),
-        (100, "value")
-    );
+    assert_eq!((found.beat, found.differences[0].field.name), (100, "value"));
     let outcome = run(2);
-    let Outcome::Hung(hung) = &outcome else {
-        panic!("{outcome}")
-    };
+    let Outcome::Hung(hung) = &outcome else { panic!("{outcome}") };
     assert_eq!(hung.streams.len(), 6);
     let text = outcome.to_string();
-    assert!(
-        text.contains("u_first.term 100/500 (valid 1, ready 0)"),
-        "{text}"
-    );
+    assert!(text.contains("u_first.term 100/500 (valid 1, ready 0)"), "{text}");
 }
 
 /// Answers a read of address x with 3 x, some clocks later.
@@ -217,11 +169,8 @@ impl Responder for Memory {
 fn requests_are_answered_by_a_table_or_by_a_memory() {
     let interface = reader();
     let library = model(&interface, &[]);
-    let mut tables: Vec<Table> = interface
-        .streams
-        .iter()
-        .map(|stream| Table::new(&stream.fields))
-        .collect();
+    let mut tables: Vec<Table> =
+        interface.streams.iter().map(|stream| Table::new(&stream.fields)).collect();
     let mut random = fastrand::Rng::with_seed(11);
     for _ in 0..2_000 {
         let x = random.u64(..4096);
@@ -233,56 +182,24 @@ fn requests_are_answered_by_a_table_or_by_a_memory() {
     for stalls in Stalls::crossed(4) {
         let given: Vec<Option<&Table>> = tables.iter().map(Some).collect();
         let mut bench = Bench::new(&library, 2).unwrap();
-        let outcome = bench
-            .run(&Job {
-                tables: &given,
-                stalls,
-                ..Job::default()
-            })
-            .unwrap();
-        let counts = outcome
-            .passed()
-            .unwrap_or_else(|| panic!("{stalls:?}: {outcome}"));
-        let answers = (
-            counts.stream("request").unwrap(),
-            counts.stream("response").unwrap(),
-        );
-        assert!(
-            answers.0.first < answers.1.first,
-            "an answer came before its request"
-        );
+        let outcome = bench.run(&Job { tables: &given, stalls, ..Job::default() }).unwrap();
+        let counts = outcome.passed().unwrap_or_else(|| panic!("{stalls:?}: {outcome}"));
+        let answers = (counts.stream("request").unwrap(), counts.stream("response").unwrap());
+        assert!(answers.0.first < answers.1.first, "an answer came before its request");
 
-        let mut memory = Memory {
-            due: Default::default(),
-            pixels: 0,
-        };
+        let mut memory = Memory { due: Default::default(), pixels: 0 };
         let mut given = given;
         given[2] = None;
-        let job = Job {
-            tables: &given,
-            stalls,
-            ..Job::default()
-        };
+        let job = Job { tables: &given, stalls, ..Job::default() };
         let outcome = bench.run_with(&job, &mut memory).unwrap();
         assert!(outcome.passed().is_some(), "{stalls:?}: {outcome}");
         assert_eq!((memory.pixels, memory.due.len()), (2_000, 0));
         assert_eq!(bench.run(&job), Err(JobError::NoStimulus("response")));
 
         // Nothing compared: the memory still gets what was sent.
-        let job = Job {
-            tables: &[Some(&tables[0]), None, None, None],
-            stalls,
-            ..Job::default()
-        };
-        let mut memory = Memory {
-            due: Default::default(),
-            pixels: 0,
-        };
-        assert!(bench
-            .run_with(&job, &mut memory)
-            .unwrap()
-            .passed()
-            .is_some());
+        let job = Job { tables: &[Some(&tables[0]), None, None, None], stalls, ..Job::default() };
+        let mut memory = Memory { due: Default::default(), pixels: 0 };
+        assert!(bench.run_with(&job, &mut memory).unwrap().passed().is_some());
         assert_eq!((memory.pixels, memory.due.len()), (2_000, 0));
     }
 }
@@ -293,35 +210,16 @@ fn runs_follow_one_another_and_a_reset_can_come_at_any_time() {
     let library = model(&adder(0), &[]);
     let mut bench = Bench::new(&library, 3).unwrap();
     let tables = [Some(&sums.term), Some(&sums.sum)];
-    let stalls = Stalls {
-        idle: Pattern::None,
-        back_pressure: Pattern::Random50,
-        seed: 1,
-    };
-    let job = Job {
-        statics: &[BIAS],
-        tables: &tables,
-        stalls,
-        ..Job::default()
-    };
+    let stalls = Stalls { idle: Pattern::None, back_pressure: Pattern::Random50, seed: 1 };
+    let job = Job { statics: &[BIAS], tables: &tables, stalls, ..Job::default() };
     let first = bench.run(&job).unwrap();
     assert!(first.passed().is_some());
     assert!(bench.cycle() > 300);
-    assert!(
-        bench.run(&job).unwrap().passed().is_some(),
-        "a second part without a reset"
-    );
+    assert!(bench.run(&job).unwrap().passed().is_some(), "a second part without a reset");
     // A wrong table leaves the model in the middle of its work.
     let wrong = common::sums(300, 13);
     let tables = [Some(&sums.term), Some(&wrong.sum)];
-    assert!(bench
-        .run(&Job {
-            tables: &tables,
-            ..job
-        })
-        .unwrap()
-        .passed()
-        .is_none());
+    assert!(bench.run(&Job { tables: &tables, ..job }).unwrap().passed().is_none());
     bench.reset();
     assert!(bench.run(&job).unwrap().passed().is_some(), "after a reset");
 }
@@ -332,49 +230,15 @@ fn a_job_that_does_not_fit_is_refused() {
     let library = model(&adder(0), &[]);
     let mut bench = Bench::new(&library, 3).unwrap();
     let tables = [Some(&sums.term), Some(&sums.sum)];
-    let job = Job {
-        statics: &[BIAS],
-        tables: &tables,
-        ..Job::default()
-    };
-    let error = bench
-        .run(&Job {
-            statics: &[],
-            ..job
-        })
-        .unwrap_err();
+    let job = Job { statics: &[BIAS], tables: &tables, ..Job::default() };
+    let error = bench.run(&Job { statics: &[], ..job }).unwrap_err();
+    assert_eq!(error.to_string(), "static inputs: 0 given, the interface has 1");
+    let error = bench.run(&Job { tables: &tables[1..], ..job }).unwrap_err();
+    assert_eq!(error.to_string(), "tables of streams: 1 given, the interface has 2");
+    let error = bench.run(&Job { tables: &[Some(&sums.sum), None], ..job }).unwrap_err();
+    assert_eq!(error.to_string(), "table of stream term has 5 fields, the interface has 6");
     assert_eq!(
-        error.to_string(),
-        "static inputs: 0 given, the interface has 1"
-    );
-    let error = bench
-        .run(&Job {
-            tables: &tables[1..],
-            ..job
-        })
-        .unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "tables of streams: 1 given, the interface has 2"
-    );
-    let error = bench
-        .run(&Job {
-            tables: &[Some(&sums.sum), None],
-            ..job
-        })
-        .unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "table of stream term has 5 fields, the interface has 6"
-    );
-    assert_eq!(
-        bench
-            .run(&Job {
-                probes: &[None],
-                ..job
-            })
-            .unwrap_err()
-            .to_string(),
+        bench.run(&Job { probes: &[None], ..job }).unwrap_err().to_string(),
         "tables of probes: 1 given, the interface has 0"
     );
 }
@@ -385,27 +249,15 @@ fn models_are_independent_and_reproducible() {
     let library = model(&adder(1), &[]);
     let run = |seed: u64| {
         let mut bench = Bench::new(&library, seed).unwrap();
-        let stalls = Stalls {
-            idle: Pattern::Random50,
-            back_pressure: Pattern::Random50,
-            seed,
-        };
+        let stalls = Stalls { idle: Pattern::Random50, back_pressure: Pattern::Random50, seed };
         let state = bench.model().port("sum_value_o").unwrap();
         let tables = [Some(&sums.term), Some(&sums.sum)];
-        let job = Job {
-            statics: &[BIAS],
-            tables: &tables,
-            stalls,
-            ..Job::default()
-        };
+        let job = Job { statics: &[BIAS], tables: &tables, stalls, ..Job::default() };
         (state, bench.run(&job).unwrap())
     };
     let alone: Vec<_> = (0..8).map(run).collect();
     let distinct: std::collections::BTreeSet<u64> = alone.iter().map(|(state, _)| *state).collect();
-    assert!(
-        distinct.len() > 6,
-        "registers do not start from random values: {distinct:?}"
-    );
+    assert!(distinct.len() > 6, "registers do not start from random values: {distinct:?}");
     std::thread::scope(|scope| {
         let threads: Vec<_> = (0..8).map(|seed| scope.spawn(move || run(seed))).collect();
         for (thread, alone) in threads.into_iter().zip(&alone) {
@@ -417,17 +269,10 @@ fn models_are_independent_and_reproducible() {
     let mut stopped = Bench::new(&finish, 1).unwrap();
     let mut other = Bench::new(&finish, 2).unwrap();
     let tables = [Some(&sums.term), None];
-    let job = Job {
-        statics: &[BIAS],
-        tables: &tables,
-        ..Job::default()
-    };
+    let job = Job { statics: &[BIAS], tables: &tables, ..Job::default() };
     assert!(stopped.run(&job).unwrap().passed().is_none());
     assert!(stopped.model().stopped().is_some() && other.model().stopped().is_none());
-    assert!(
-        stopped.run(&job).unwrap().passed().is_none(),
-        "a stopped model stays stopped"
-    );
+    assert!(stopped.run(&job).unwrap().passed().is_none(), "a stopped model stays stopped");
     drop(stopped);
     assert_eq!(
         mismatch(other.run(&job).unwrap()).cycle,

@@ -15,22 +15,14 @@ fn speed() {
         ("chain, probed", chain(0), probes(), &sums.second_sum),
     ] {
         let library = model(&interface, &probes);
-        let watched = [
-            Some(&sums.term),
-            Some(&sums.sum),
-            Some(&sums.second_term),
-            Some(&sums.second_sum),
-        ];
+        let watched =
+            [Some(&sums.term), Some(&sums.sum), Some(&sums.second_term), Some(&sums.second_sum)];
         for watch in [false, true] {
             if watch && probes.is_empty() {
                 continue;
             }
             for pattern in [Pattern::None, Pattern::Random50] {
-                let stalls = Stalls {
-                    idle: pattern,
-                    back_pressure: pattern,
-                    seed: 1,
-                };
+                let stalls = Stalls { idle: pattern, back_pressure: pattern, seed: 1 };
                 let tables = [Some(&sums.term), Some(sum)];
                 let job = Job {
                     statics: &[BIAS],

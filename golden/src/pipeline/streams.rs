@@ -32,12 +32,7 @@ impl Bits for Op {
         Op::ALL[bits as usize & 3]
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field {
-            name,
-            bits: 2,
-            kind: Kind::Code(&Op::NAMES),
-            doc,
-        }
+        Field { name, bits: 2, kind: Kind::Code(&Op::NAMES), doc }
     }
 }
 
@@ -84,12 +79,7 @@ impl Bits for Mode {
         Mode(bits as u8 & 7)
     }
     fn field(name: &'static str, doc: &'static str, _: &Formats) -> Field {
-        Field {
-            name,
-            bits: 3,
-            kind: Kind::Code(&Mode::NAMES),
-            doc,
-        }
+        Field { name, bits: 3, kind: Kind::Code(&Mode::NAMES), doc }
     }
 }
 

@@ -29,20 +29,7 @@ fn edge(rng: &mut Rng, f: &Formats) -> (EdgeValue, Slope, Slope, LowBits) {
 
 fn join(edges: [(EdgeValue, Slope, Slope, LowBits); 3]) -> CoverageEdges {
     let [(value0, a0, b0, low0), (value1, a1, b1, low1), (value2, a2, b2, low2)] = edges;
-    CoverageEdges {
-        value0,
-        a0,
-        b0,
-        low0,
-        value1,
-        a1,
-        b1,
-        low1,
-        value2,
-        a2,
-        b2,
-        low2,
-    }
+    CoverageEdges { value0, a0, b0, low0, value1, a1, b1, low1, value2, a2, b2, low2 }
 }
 
 pub fn coverage_case(config: &Config, seed: u64, beats: usize) -> Case {
@@ -93,7 +80,8 @@ pub fn blend_case(config: &Config, seed: u64, beats: usize) -> Case {
     let rng = &mut Rng::with_seed(seed);
     let mut case = Case::empty(Target::Blend, config, "random");
     for _ in 0..beats {
-        let byte = |rng: &mut Rng| if rng.u32(..6) == 0 { [0, 255][rng.usize(..2)] } else { rng.u8(..) };
+        let byte =
+            |rng: &mut Rng| if rng.u32(..6) == 0 { [0, 255][rng.usize(..2)] } else { rng.u8(..) };
         let pixel = BlendPixel {
             rgb: [(); 3].map(|()| byte(rng)),
             alpha: byte(rng),
@@ -113,7 +101,9 @@ pub fn blend_corners(config: &Config) -> Case {
     let mut case = Case::empty(Target::Blend, config, "every alpha with every area");
     for alpha in 0..=255u8 {
         for area in 0..=f.full_area() {
-            for (s, b) in [(255, 0), (0, 255), (128, 127), (1, 254), (255, 255), (alpha, 255 - alpha)] {
+            for (s, b) in
+                [(255, 0), (0, 255), (128, 127), (1, 254), (255, 255), (alpha, 255 - alpha)]
+            {
                 let pixel = BlendPixel {
                     rgb: [s, b, s ^ 1],
                     alpha,
@@ -152,7 +142,11 @@ pub fn redirect_case(config: &Config, seed: u64, beats: usize) -> Case {
     let f = &Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
     let single = seed % 3 == 0;
-    let mut case = Case::empty(Target::Redirect, config, if single { "random, one display" } else { "random" });
+    let mut case = Case::empty(
+        Target::Redirect,
+        config,
+        if single { "random, one display" } else { "random" },
+    );
     case.statics = vec![single.into()];
     // Runs of slots for one eye, as polygons make them, and single ones.
     let mut eye = Eye::Left;

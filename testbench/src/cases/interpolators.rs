@@ -93,7 +93,8 @@ pub fn x_corners(config: &Config) -> Case {
     let f = &Formats::new(config);
     let mut run = XRun::new(config, "every mapping ratio and accumulator end", f.max_size);
     let end = 1 << (SecondaryX::bits(f) - 1);
-    let starts = [0, 1, SCALE_ONE / 2, SCALE_ONE - 1, -1, -SCALE_ONE, end - 1, end - SCALE_ONE, -end];
+    let starts =
+        [0, 1, SCALE_ONE / 2, SCALE_ONE - 1, -1, -SCALE_ONE, end - 1, end - SCALE_ONE, -end];
     for ratio in 1..=33 {
         for start in starts {
             let step = Scale::new((2 * SCALE_ONE + ratio) / (2 * ratio), f);

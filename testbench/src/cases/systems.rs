@@ -139,7 +139,10 @@ pub fn random_polygons(seed: u64, formats: Formats, size: [u32; 2], count: u32) 
             }
             if triangles.rng.u32(..4) == 0 {
                 let alpha = triangles.rng.u8(..);
-                polygon.vertices.iter_mut().for_each(|v| v.colour.iter_mut().for_each(|c| c.0[3] = alpha));
+                polygon
+                    .vertices
+                    .iter_mut()
+                    .for_each(|v| v.colour.iter_mut().for_each(|c| c.0[3] = alpha));
             }
             Polygon { id, ..polygon }
         })
@@ -191,7 +194,8 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let spoiled = whole(target, &good, "bad setups", tape);
 
     let mut tape = Tape::new(&good, minimal, false);
-    let stray = PrimaryBeat { op: Op::Step, mask: Mask::new(1, &f), centre: true, ..Default::default() };
+    let stray =
+        PrimaryBeat { op: Op::Step, mask: Mask::new(1, &f), centre: true, ..Default::default() };
     tape.sink().beat(&stray);
     tape.sink().beat(&PrimaryBeat { op: Op::Row, last: true, ..stray });
     good.run(minimal, tape.sink());
@@ -225,7 +229,12 @@ impl<S: Sink> Sink for Spoiler<'_, S> {
             5 => Setup { x_start: SecondaryX::wrap(-(far << FRACTION_BITS), f), ..*setup },
             _ => *setup,
         };
-        let empty = Edges { e0_a: Slope::default(), e1_a: Slope::default(), e2_a: Slope::default(), ..*edges };
+        let empty = Edges {
+            e0_a: Slope::default(),
+            e1_a: Slope::default(),
+            e2_a: Slope::default(),
+            ..*edges
+        };
         let edges = if self.polygon % 9 == 6 { &empty } else { edges };
         self.sink.records(&spoilt, edges);
     }

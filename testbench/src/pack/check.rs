@@ -39,19 +39,31 @@ struct Checker<'a> {
 }
 
 impl Checker<'_> {
-    fn same<T: PartialEq + ToString>(&self, field: &str, found: T, expected: T) -> Result<(), PackError> {
+    fn same<T: PartialEq + ToString>(
+        &self,
+        field: &str,
+        found: T,
+        expected: T,
+    ) -> Result<(), PackError> {
         if found == expected {
             return Ok(());
         }
         let (path, field) = (self.path.clone(), field.to_owned());
-        Err(PackError::Field { path, field, found: found.to_string(), expected: expected.to_string() })
+        Err(PackError::Field {
+            path,
+            field,
+            found: found.to_string(),
+            expected: expected.to_string(),
+        })
     }
 
     /// The content of a file that has the hash it should have.
     fn content(&self, field: &str, file: &HashedFile) -> Result<Vec<u8>, PackError> {
         let path = self.folder.join(&file.file);
         if file.file.contains(['/', '\\']) {
-            return self.same(field, file.file.as_str(), "a name without a folder").map(|()| Vec::new());
+            return self
+                .same(field, file.file.as_str(), "a name without a folder")
+                .map(|()| Vec::new());
         }
         let content = fs::read(&path).map_err(PackError::at(&path))?;
         let hash = blake3::hash(&content).to_hex().to_string();
@@ -113,7 +125,11 @@ fn check_one(folder: &Path) -> Result<Checked, PackError> {
     }
     let manifest: Manifest = serde_json::from_str(&text).map_err(fault)?;
     if Target::named(&manifest.target).is_none() {
-        checker.same("target", manifest.target.as_str(), "a target that `wheatstone list` names")?;
+        checker.same(
+            "target",
+            manifest.target.as_str(),
+            "a target that `wheatstone list` names",
+        )?;
     }
     for port in &manifest.ports {
         checker.port(port)?;

@@ -36,7 +36,8 @@ fn define(text: &mut String, name: &str, value: &str) {
 }
 
 fn macro_name(prefix: &str, name: &str, what: &str) -> String {
-    let joined = ["VEC", prefix, name, what].iter().filter(|s| !s.is_empty()).copied().collect::<Vec<_>>();
+    let joined =
+        ["VEC", prefix, name, what].iter().filter(|s| !s.is_empty()).copied().collect::<Vec<_>>();
     joined.join("_").to_uppercase()
 }
 
@@ -69,9 +70,13 @@ pub fn bench(manifest: &Manifest, interface: &Interface) -> String {
             Direction::Input => INPUT,
             Direction::Output => OUTPUT,
         };
-        let gate = port.answers.as_ref().map_or("1'b1".to_owned(), |r| format!("{0}_n < {r}_n", port.name));
+        let gate = port
+            .answers
+            .as_ref()
+            .map_or("1'b1".to_owned(), |r| format!("{0}_n < {r}_n", port.name));
         let upper = port.name.to_uppercase();
-        text += &template.replace("@P@", &port.name).replace("@U@", &upper).replace("@GATE@", &gate);
+        text +=
+            &template.replace("@P@", &port.name).replace("@U@", &upper).replace("@GATE@", &gate);
         connect(port, stream.direction, &mut connections);
         done.push(format!("{}_n == `VEC_{upper}_BEATS", port.name));
         if stream.direction == Direction::Output {
@@ -79,7 +84,11 @@ pub fn bench(manifest: &Manifest, interface: &Interface) -> String {
         }
     }
     let parameters = if manifest.parameters.is_empty() { "" } else { "#(`VEC_PARAMETERS) " };
-    let _ = writeln!(text, "  `VEC_MODULE {parameters}dut (\n    {}\n  );\n", connections.join(",\n    "));
+    let _ = writeln!(
+        text,
+        "  `VEC_MODULE {parameters}dut (\n    {}\n  );\n",
+        connections.join(",\n    ")
+    );
     let _ = writeln!(text, "  wire done = {};", done.join("\n    && "));
     text + &BENCH_TAIL.replace("@CHECKS@", checks.trim_end())
 }

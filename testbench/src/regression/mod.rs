@@ -56,6 +56,9 @@ pub enum RegressionError {
     /// A waveform could not be written.
     #[error(transparent)]
     Trace(#[from] TraceError),
+    /// The view of a waveform could not be written.
+    #[error(transparent)]
+    Wave(#[from] crate::waves::WaveError),
     /// A file could not be written.
     #[error("{path}: {source}")]
     File {
@@ -331,7 +334,7 @@ fn try_case(
         };
         entry.failure = Some(Failure::new(plan, case.target, &case.name, seed, stalls, ran, library, again)?);
     } else if let Some(trace) = &setting.trace {
-        failure::view(library, trace, None)?;
+        failure::view(library, trace, None, "")?;
     }
     Ok(())
 }

@@ -9,12 +9,7 @@ use wheatstone_testbench::{Bench, Builder, Job, Library, Outcome, Probe, Spec, S
 pub const BIAS: u64 = 0x1f_ff00;
 
 fn field(name: &'static str, bits: u32, kind: Kind) -> Field {
-    Field {
-        name,
-        bits,
-        kind,
-        doc: "",
-    }
+    Field { name, bits, kind, doc: "" }
 }
 
 fn stream(
@@ -23,38 +18,19 @@ fn stream(
     fields: Vec<Field>,
     answers: Option<&'static str>,
 ) -> Stream {
-    Stream {
-        name,
-        direction,
-        fields,
-        answers,
-    }
+    Stream { name, direction, fields, answers }
 }
 
-const FIXED: Kind = Kind::Number {
-    signed: true,
-    fraction: 14,
-};
-const NUMBER: Kind = Kind::Number {
-    signed: false,
-    fraction: 0,
-};
+const FIXED: Kind = Kind::Number { signed: true, fraction: 14 };
+const NUMBER: Kind = Kind::Number { signed: false, fraction: 0 };
 const OP: Kind = Kind::Code(&["ADD", "SUBTRACT", "ADD_TOO", "RESERVED"]);
 
 /// The adder; with `bug` 0 the good one.
 pub fn adder(bug: u32) -> Interface {
     let rest = || {
-        [
-            field("tag", 40, NUMBER),
-            field("rgba", 32, Kind::Colour),
-            field("last", 1, Kind::Flag),
-        ]
+        [field("tag", 40, NUMBER), field("rgba", 32, Kind::Colour), field("last", 1, Kind::Flag)]
     };
-    let mut term = vec![
-        field("op", 2, OP),
-        field("a", 25, FIXED),
-        field("b", 25, FIXED),
-    ];
+    let mut term = vec![field("op", 2, OP), field("a", 25, FIXED), field("b", 25, FIXED)];
     term.extend(rest());
     let mut sum = vec![field("op", 2, OP), field("value", 26, FIXED)];
     sum.extend(rest());
@@ -73,19 +49,12 @@ pub fn adder(bug: u32) -> Interface {
 
 /// The system of two adders; the first has the bug.
 pub fn chain(bug: u32) -> Interface {
-    Interface {
-        target: "chain",
-        module: "sam_chain",
-        ..adder(bug)
-    }
+    Interface { target: "chain", module: "sam_chain", ..adder(bug) }
 }
 
 /// Both adders of the chain.
 pub fn probes() -> Vec<Probe> {
-    vec![
-        Probe::new("u_first", &adder(0)),
-        Probe::new("g_second.u_adder", &adder(0)),
-    ]
+    vec![Probe::new("u_first", &adder(0)), Probe::new("g_second.u_adder", &adder(0))]
 }
 
 /// The reader of a memory.
@@ -113,21 +82,13 @@ pub fn fixtures() -> PathBuf {
 
 /// A builder with the cache of the workspace.
 pub fn builder() -> Builder {
-    let cache = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("..")
-        .join(Builder::CACHE);
+    let cache = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..").join(Builder::CACHE);
     Builder::new(Toolchain::find().unwrap(), cache)
 }
 
 /// The model of an interface among the fixtures.
 pub fn model(interface: &Interface, probes: &[Probe]) -> Library {
-    builder()
-        .build(&Spec {
-            interface,
-            rtl: &fixtures(),
-            probes,
-        })
-        .unwrap()
+    builder().build(&Spec { interface, rtl: &fixtures(), probes }).unwrap()
 }
 
 fn table(fields: &[Field]) -> Table {
@@ -147,13 +108,7 @@ pub struct Sums {
 pub fn sums(beats: usize, seed: u64) -> Sums {
     let interface = adder(0);
     let [term, sum] = [0, 1].map(|i| table(&interface.streams[i].fields));
-    let mut sums = Sums {
-        second_term: term.clone(),
-        second_sum: sum.clone(),
-        term,
-        sum,
-        error: 0,
-    };
+    let mut sums = Sums { second_term: term.clone(), second_sum: sum.clone(), term, sum, error: 0 };
     let mut random = fastrand::Rng::with_seed(seed);
     let signed = |v: u64| ((v << 39) as i64) >> 39;
     for _ in 0..beats {
@@ -166,8 +121,7 @@ pub fn sums(beats: usize, seed: u64) -> Sums {
         sums.sum.push_row(&[op, value, tag, rgba, last]);
         let tag = op << 38 | tag & ((1 << 38) - 1);
         sums.second_term.push_row(&[0, value, 3, tag, rgba, last]);
-        sums.second_sum
-            .push_row(&[0, (signed(value) + 3) as u64, tag, rgba, last]);
+        sums.second_sum.push_row(&[0, (signed(value) + 3) as u64, tag, rgba, last]);
     }
     sums
 }
@@ -185,4 +139,19 @@ pub fn run_adder(bug: u32, sums: &Sums, stalls: Stalls) -> Outcome {
             ..Job::default()
         })
         .unwrap()
+}
+
+/// An empty cache, but for Verilator's runtime, which takes long to compile.
+pub fn fresh_cache() -> tempfile::TempDir {
+    model(&adder(0), &[]);
+    let folder = tempfile::tempdir().unwrap();
+    let cache = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..").join(Builder::CACHE);
+    for entry in std::fs::read_dir(cache.canonicalize().unwrap()).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name();
+        if name.to_string_lossy().starts_with("runtime-") && entry.path().is_dir() {
+            std::os::unix::fs::symlink(entry.path(), folder.path().join(name)).unwrap();
+        }
+    }
+    folder
 }
