@@ -330,7 +330,15 @@ impl Planner {
             Sampling::Nearest => false,
             Sampling::Average => true,
         };
-        Ok(Plan::Derived(Derived { primary, map, primary_view, secondary_view, rows, planes, average }))
+        Ok(Plan::Derived(Derived {
+            primary,
+            map,
+            primary_view,
+            secondary_view,
+            rows,
+            planes,
+            average,
+        }))
     }
 
     fn monocular_cost(&self, view: &View) -> u64 {

@@ -98,7 +98,8 @@ fn compare_frames(golden: &Frames, actual: &Frames) -> Vec<MemoryFault> {
     let mut faults = Vec::new();
     for eye in Eye::BOTH {
         let [golden, actual] = [golden, actual].map(|f| &f.eyes[eye as usize]);
-        let pixel = |n: usize| ((golden.colour[n], golden.depth[n]), (actual.colour[n], actual.depth[n]));
+        let pixel =
+            |n: usize| ((golden.colour[n], golden.depth[n]), (actual.colour[n], actual.depth[n]));
         let mut different = (0..golden.colour.len()).filter(|&n| {
             let (expected, actual) = pixel(n);
             expected != actual
@@ -147,7 +148,8 @@ impl<'a> Runner<'a> {
             // The memory answers, not a table.
             tables.push(table.filter(|_| responder.is_none() || stream.answers.is_none()));
         }
-        let probes: Vec<Option<&Table>> = case.probes.iter().map(|(_, table)| Some(table)).collect();
+        let probes: Vec<Option<&Table>> =
+            case.probes.iter().map(|(_, table)| Some(table)).collect();
         let job = Job {
             statics: &case.statics,
             tables: &tables,
@@ -170,7 +172,12 @@ impl<'a> Runner<'a> {
         Memory::new(&self.interface, frames, self.setting.latency, self.setting.seed)
     }
 
-    fn finish(self, outcome: Outcome, memory: Vec<MemoryFault>, recording: Option<Recording>) -> Ran {
+    fn finish(
+        self,
+        outcome: Outcome,
+        memory: Vec<MemoryFault>,
+        recording: Option<Recording>,
+    ) -> Ran {
         Ran { outcome, counts: self.counts, memory, recording: recording.map(Box::new) }
     }
 }
