@@ -71,7 +71,7 @@ fn exact_division_is_exact() {
         for sum in 0..=255 * n {
             let rounded = (2 * sum + n) / (2 * n);
             let quotient = (u64::from(sum + n / 2) * u64::from(reciprocal(n))) >> 18;
-            assert_eq!(quotient, rounded.into(), "{sum}/{n}");
+            assert_eq!(quotient, u64::from(rounded), "{sum}/{n}");
         }
     }
 }

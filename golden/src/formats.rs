@@ -213,8 +213,8 @@ quantities! {
     Mask(u16), false, 0, |f| f.mask_bits;
     /// What the sampler carries: colour lowest, above it depth where that is sampled.
     SampleData(u64), false, 0, |f| f.sample_bits;
-    /// What goes beside a colour through blending: depth, write flag, keep flag.
-    Tag(u32), false, 0, |_f| DEPTH_BITS + 2;
+    /// What goes beside a colour through blending: whether the pixel passed the depth test.
+    Tag(u8), false, 0, |_f| 1;
     /// Number of pixels averaged by the filter: 0 to 29.
     Count(u8), false, 0, |_f| 5;
 }

@@ -15,6 +15,8 @@ pub mod direct;
 pub mod formats;
 #[cfg(feature = "std")]
 pub mod frame;
+#[cfg(feature = "std")]
+pub mod header;
 pub mod interface;
 #[cfg(feature = "std")]
 pub mod picture;

@@ -1,7 +1,7 @@
 //! Pictures: stereo composites, comparisons, and files that are either whole or not there.
 
 use crate::formats::Rgba;
-use image::{Rgb, RgbImage};
+pub use image::{Rgb, RgbImage};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -306,6 +306,12 @@ mod tests {
         for id in [None, Some(0), Some(255), Some(65_535), Some((1 << 24) - 2)] {
             assert_eq!(id_of_colour(id_colour(id)), id);
         }
+        let picture = id_picture(3, 2, |x, y| (x == 1 && y == 1).then_some(6));
+        assert_eq!(picture.get_pixel(1, 1), &Rgb([0, 0, 7]));
+        assert_eq!(picture.get_pixel(1, 0), &Rgb([0; 3]));
+        let picture = colour_picture(2, 2, &[Rgba([1, 2, 3, 4]), Rgba([5, 6, 7, 8])]);
+        assert_eq!(picture.get_pixel(1, 0), &Rgb([5, 6, 7]));
+        assert_eq!(picture.get_pixel(1, 1), &Rgb([0; 3]));
     }
 
     #[test]

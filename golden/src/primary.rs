@@ -186,7 +186,9 @@ impl<'a> Primary<'a> {
                     Some(_) if x == row.first => Op::Row,
                     Some(_) => Op::Step,
                 };
-                let beat = self.beat(traversal, x.into(), row.y.into(), op, false, false);
+                // Nothing is derived, but the row start is what it is.
+                let save = x == row.first;
+                let beat = self.beat(traversal, x.into(), row.y.into(), op, save, false);
                 if let Some(before) = waiting.replace(beat) {
                     sink.beat(&before);
                 }

@@ -149,9 +149,8 @@ impl Target {
                 interface.statics = vec![height];
             }
             Target::EdgeInterpolator => {
-                interface.parameters = parameters(&["ANTIALIAS", "TILT"]);
                 let widths = [("BITS", f.edge_bits), ("SLOPE_BITS", f.slope_bits)];
-                interface.parameters.extend(widths);
+                interface.parameters = widths.into_iter().chain([parameter("TILT")]).collect();
             }
             Target::Sampler => interface.parameters = vec![("WIDTH", f.sample_bits)],
             Target::Filter => interface.parameters = parameters(&["FILTER_TERMS"]),

@@ -9,6 +9,7 @@
 
 mod bench;
 pub mod cases;
+pub mod cli;
 mod drive;
 mod job;
 mod layout;
@@ -17,6 +18,7 @@ mod model;
 mod outcome;
 pub mod pack;
 mod ports;
+pub mod regression;
 pub mod settings;
 mod shim;
 mod sources;

@@ -1,1 +1,5 @@
-fn main() {}
+//! The program `wheatstone`; see [`wheatstone_testbench::cli`].
+
+fn main() -> std::process::ExitCode {
+    wheatstone_testbench::cli::main()
+}

@@ -1,6 +1,7 @@
 //! The memory beside a system: frame buffers that take its pixels and answer its reads.
 
 use crate::job::Responder;
+use crate::regression::MemoryFault;
 use fastrand::Rng;
 use std::collections::VecDeque;
 use wheatstone_golden::frame::Frames;
@@ -17,14 +18,14 @@ const LONGEST: u64 = 24;
 pub struct Memory {
     /// The frame buffers.
     pub frames: Frames,
-    /// The first answer that the golden model would not have given: its number, the answer
-    /// expected and the one given.
-    pub stale: Option<(u64, Response, Response)>,
+    /// The first answer that the golden model would not have given.
+    pub stale: Option<MemoryFault>,
     latency: Option<u64>,
     rng: Rng,
     reads: VecDeque<Read>,
     expected: Table,
     answered: u64,
+    checked: usize,
     roles: Vec<Role>,
 }
 
@@ -45,14 +46,8 @@ enum Role {
 }
 
 impl Memory {
-    /// A memory for a system's streams; `expected` are the answers of the golden model.
-    pub fn new(
-        interface: &Interface,
-        frames: Frames,
-        expected: Table,
-        latency: Option<u64>,
-        seed: u64,
-    ) -> Memory {
+    /// A memory for a system's streams.
+    pub fn new(interface: &Interface, frames: Frames, latency: Option<u64>, seed: u64) -> Memory {
         let role = |name: &str| match name {
             "request" => Role::Request,
             "left" | "right" => Role::Pixels,
@@ -64,10 +59,17 @@ impl Memory {
             latency,
             rng: Rng::with_seed(seed),
             reads: VecDeque::new(),
-            expected,
+            expected: Table::default(),
             answered: 0,
+            checked: 0,
             roles: interface.streams.iter().map(|s| role(s.name)).collect(),
         }
+    }
+
+    /// The answers that the golden model gave to the reads that come next.
+    pub fn expect(&mut self, answers: Option<&Table>) {
+        self.expected = answers.cloned().unwrap_or_default();
+        self.checked = 0;
     }
 
     fn fetch(&self, request: &Request) -> Response {
@@ -101,13 +103,13 @@ impl Responder for Memory {
         let mut fields = Vec::with_capacity(row.len());
         response.write(&mut fields);
         row.copy_from_slice(&fields);
-        let number = self.answered as usize;
-        if self.stale.is_none()
-            && number < self.expected.len()
-            && self.expected.row(number) != fields
-        {
-            self.stale = Some((self.answered, Response::read(self.expected.row(number)), response));
+        let wrong = self.checked < self.expected.len() && self.expected.row(self.checked) != fields;
+        if wrong && self.stale.is_none() {
+            let expected = Response::read(self.expected.row(self.checked));
+            let (read, actual) = (self.answered, response);
+            self.stale = Some(MemoryFault::Stale { read, expected, actual });
         }
+        self.checked += 1;
         self.answered += 1;
         true
     }

@@ -118,7 +118,8 @@ static YOSYS: Tool = Tool {
     package: "yosys",
     version_arguments: &["-V"],
 };
-static GTKWAVE: Tool = Tool {
+/// The waveform viewer.
+pub static GTKWAVE: Tool = Tool {
     program: "gtkwave",
     purpose: "looking at waveforms",
     optional: true,

@@ -26,11 +26,11 @@ macro_rules! interpolant {
                 start: $value,
                 /// change for one pixel to the right (LOAD)
                 a: $slope,
-                /// change for one pixel down (LOAD, ANTIALIAS or TILT)
+                /// change for one pixel down (LOAD)
                 b: $slope,
                 /// change from row start to row start (LOAD)
                 row: $value,
-                /// dropped bits (LOAD, ANTIALIAS)
+                /// dropped bits (LOAD)
                 low: LowBits,
             }
         }
@@ -112,8 +112,6 @@ interpolant!(ColourBeat, ColourOutput, ColourPlane, ColourPlane);
 #[derive(Clone, Debug)]
 pub struct EdgeInterpolator<B> {
     formats: Formats,
-    keep_b: bool,
-    keep_low: bool,
     tilt: bool,
     value: i64,
     saved: i64,
@@ -125,12 +123,10 @@ pub struct EdgeInterpolator<B> {
 }
 
 impl<B: Interpolant> EdgeInterpolator<B> {
-    /// An interpolator; `b` and `low` are kept only where the build needs them.
+    /// An interpolator; with `tilt` it moves down within a row too.
     pub fn new(formats: Formats, tilt: bool) -> EdgeInterpolator<B> {
         EdgeInterpolator {
             formats,
-            keep_b: tilt || formats.mask_bits > 1,
-            keep_low: formats.mask_bits > 1,
             tilt,
             value: 0,
             saved: 0,
@@ -150,9 +146,9 @@ impl<B: Interpolant> EdgeInterpolator<B> {
         let sum = match step.op {
             Op::Load => {
                 self.a = step.a;
-                self.b = if self.keep_b { step.b } else { 0 };
+                self.b = step.b;
                 self.row = step.row;
-                self.low = if self.keep_low { step.low } else { LowBits::default() };
+                self.low = step.low;
                 step.start
             }
             Op::Row => self.saved + self.row + movement,

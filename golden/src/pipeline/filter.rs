@@ -1,6 +1,6 @@
 //! Filter: average of the primary pixels in a secondary pixel (paper, section 5.6.1).
 
-use super::filter_tables::{reciprocal, THREE_TERM, TWO_TERM};
+use super::filter_tables::*;
 use crate::beat;
 use crate::config::{Config, Division};
 use crate::formats::*;
@@ -72,13 +72,21 @@ pub fn divide(division: Division, sum: u32, n: u32) -> u8 {
     let quotient = match division {
         Division::TwoTerm => {
             let (p, q) = TWO_TERM[n as usize];
-            ((sum << (8 - p)) + (sum << (8 - q)) + 128) >> 8
+            shifted_sum(sum, TWO_TERM_SHIFT, [p, q])
         }
         Division::ThreeTerm => {
             let (p, q, r) = THREE_TERM[n as usize];
-            ((sum << (11 - p)) + (sum << (11 - q)) + (sum << (11 - r)) + 1024) >> 11
+            shifted_sum(sum, THREE_TERM_SHIFT, [p, q, r])
         }
-        Division::Exact => ((u64::from(sum + n / 2) * u64::from(reciprocal(n))) >> 18) as u32,
+        Division::Exact => {
+            ((u64::from(sum + n / 2) * u64::from(reciprocal(n))) >> RECIPROCAL_SHIFT) as u32
+        }
     };
     quotient.min(255) as u8
+}
+
+/// Sum of `a`/2^e over the exponents, rounded; added up with `fraction` bits before it is cut.
+fn shifted_sum<const N: usize>(a: u32, fraction: u32, exponents: [u32; N]) -> u32 {
+    let sum: u32 = exponents.iter().map(|e| a << (fraction - e)).sum();
+    (sum + (1 << (fraction - 1))) >> fraction
 }

@@ -301,21 +301,21 @@ impl Hybrid {
             y: slot.secondary_y,
         });
         let keep = self.config.external_depth || depth < behind.depth;
-        let tag = depth.raw() | i64::from(covered.centre) << 24 | i64::from(keep) << 25;
         let pixel = BlendPixel {
             rgb,
             alpha: colour.0[3],
             area: covered.area,
             background: behind.rgb,
-            tag: Tag::new(tag, f),
+            tag: Tag::new(keep.into(), f),
         };
         observer.input(Unit::Blend, &pixel);
         let blended = blend(&pixel, f);
         observer.output(Unit::Blend, &blended);
         let [r, g, b] = blended.rgb;
         slot.secondary = keep;
-        slot.secondary_rgba = Rgba([r, g, b, 255]);
-        slot.secondary_area = Area::new(f.full_area().into(), f);
+        // Alpha and area go along although they are used up: whoever counts may want them.
+        slot.secondary_rgba = Rgba([r, g, b, colour.0[3]]);
+        slot.secondary_area = covered.area;
         slot.secondary_depth = depth;
         slot.secondary_write = covered.centre;
     }

@@ -57,6 +57,12 @@ impl Unit {
         Unit::Redirect,
     ];
 
+    /// Name in reports: that of the instance without its prefix.
+    pub fn name(self) -> &'static str {
+        let instance = self.instance();
+        instance.split('.').next_back().and_then(|i| i.strip_prefix("u_")).unwrap_or(instance)
+    }
+
     /// Name of the Verilog instance inside a system, its generate block included.
     pub fn instance(self) -> &'static str {
         match self {
@@ -65,15 +71,15 @@ impl Unit {
             Unit::Edge0 => "u_edge0",
             Unit::Edge1 => "u_edge1",
             Unit::Edge2 => "u_edge2",
-            Unit::Depth => "u_depth",
-            Unit::Red => "u_red",
-            Unit::Green => "u_green",
-            Unit::Blue => "u_blue",
+            Unit::Depth => "u_planes.g_depth.u_depth",
+            Unit::Red => "u_planes.g_colour.u_red",
+            Unit::Green => "u_planes.g_colour.u_green",
+            Unit::Blue => "u_planes.g_colour.u_blue",
             Unit::Display => "u_display",
             Unit::Sampler => "u_sampler",
             Unit::Filter => "u_filter",
-            Unit::Coverage => "u_coverage",
-            Unit::Blend => "u_blend",
+            Unit::Coverage => "u_back.u_coverage",
+            Unit::Blend => "u_back.u_blend",
             Unit::Redirect => "u_redirect",
         }
     }

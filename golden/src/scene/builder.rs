@@ -130,12 +130,12 @@ impl<'a> Builder<'a> {
         let mut cut = false;
         if !corners.iter().all(inside) {
             cut = true;
-            corners = clip_all(corners, &self.depth_planes);
+            corners = self.clip(corners, &self.depth_planes);
         }
         let mut points = self.snap(&corners);
         if self.camera.is_level() && !points.iter().all(|p| self.in_band(p, Eye::Left, 1)) {
             cut = true;
-            corners = clip_all(corners, &self.window_planes[0][2..]);
+            corners = self.clip(corners, &self.window_planes[0][2..]);
             points = self.snap(&corners);
         }
         if corners.is_empty() {
@@ -151,6 +151,15 @@ impl<'a> Builder<'a> {
         } else {
             self.guard_band(&corners, surface);
         }
+    }
+
+    /// What lies in the half spaces. Rounding puts no corner before the near plane, where the
+    /// projection would turn over.
+    fn clip(&self, corners: Vec<Corner>, spaces: &[HalfSpace]) -> Vec<Corner> {
+        let [near, far] = self.camera.depth_range();
+        let mut kept = clip_all(corners, spaces);
+        kept.iter_mut().for_each(|c| c.position[2] = c.position[2].clamp(near, far));
+        kept
     }
 
     fn snap(&self, corners: &[Corner]) -> Vec<Snapped> {
@@ -187,7 +196,7 @@ impl<'a> Builder<'a> {
         self.counts.guard_band += 1;
         let mut culled = 0;
         for eye in Eye::BOTH {
-            let corners = clip_all(corners.to_vec(), &self.window_planes[eye as usize]);
+            let corners = self.clip(corners.to_vec(), &self.window_planes[eye as usize]);
             let mut points = self.snap(&corners);
             for point in &mut points {
                 // Rounding may leave a corner a subpixel outside. The other eye is not concerned.

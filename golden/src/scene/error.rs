@@ -46,11 +46,19 @@ impl InputError {
         InputError {
             file: file.to_owned(),
             line: line.into(),
-            field: field.into(),
-            expected: expected.into(),
-            found: found.into(),
+            field: printable(&field.into()),
+            expected: printable(&expected.into()),
+            found: printable(&found.into()),
         }
     }
+}
+
+/// Text of a file for one line of a terminal: without control characters, cut short.
+fn printable(text: &str) -> String {
+    const MOST: usize = 200;
+    let shown = text.chars().take(MOST).map(|c| if c.is_control() { '\u{fffd}' } else { c });
+    let more = text.chars().nth(MOST).map(|_| "…");
+    shown.chain(more.iter().flat_map(|m| m.chars())).collect()
 }
 
 /// A rig that nothing can be projected with.

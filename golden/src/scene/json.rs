@@ -84,7 +84,7 @@ pub(super) fn parse<T: DeserializeOwned>(file: &Path, text: &str) -> Result<T, I
         Ok(_) => Err(broken(file, &first, "")),
         Err(error) => {
             let path = error.path().to_string();
-            Err(broken(file, &error.into_inner(), path.trim_matches('.')))
+            Err(broken(file, &error.into_inner(), path.trim_end_matches(['.', '?'])))
         }
     }
 }
@@ -112,7 +112,15 @@ fn broken(file: &Path, error: &serde_json::Error, path: &str) -> InputError {
         }
         return new(if path.is_empty() { quoted } else { path }, "one value", message);
     }
-    new(if path.is_empty() { "file" } else { path }, "well-formed JSON", message)
+    if message == "trailing characters" && !path.is_empty() {
+        // All arrays of a fixed length here are of this one.
+        return new(path, "3 elements", "more");
+    }
+    let field = if path.is_empty() { "file" } else { path };
+    match message.strip_prefix("expected ") {
+        Some(expected) => new(field, expected, "something else: not well-formed JSON"),
+        None => new(field, "well-formed JSON", message),
+    }
 }
 
 /// Reads a scene file.

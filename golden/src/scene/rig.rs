@@ -64,6 +64,12 @@ impl Rig {
         }
         positive("near", self.near())?;
         positive("far", self.far())?;
+        // Closer to the eyes, z + d is all rounding.
+        let least = self.viewing_distance / 1e6;
+        if self.near() < least {
+            let expected = format!("at least a millionth of viewing_distance, {least:e}");
+            return Err(RigError { field: "near", expected, found: self.near() });
+        }
         if self.far() <= self.near() {
             let expected = format!("more than near, which is {}", self.near());
             return Err(RigError { field: "far", expected, found: self.far() });
@@ -186,12 +192,18 @@ impl Camera {
         self.separation[1] == 0.0
     }
 
+    /// z of the near and of the far plane.
+    pub fn depth_range(&self) -> [f64; 2] {
+        let d = self.rig.viewing_distance;
+        [self.near - d, self.far - d]
+    }
+
     /// Behind the near plane and before the far plane.
     pub fn depth_planes(&self) -> [HalfSpace; 2] {
-        let d = self.rig.viewing_distance;
+        let [near, far] = self.depth_range();
         [
-            HalfSpace { normal: [0.0, 0.0, 1.0], offset: d - self.near },
-            HalfSpace { normal: [0.0, 0.0, -1.0], offset: self.far - d },
+            HalfSpace { normal: [0.0, 0.0, 1.0], offset: -near },
+            HalfSpace { normal: [0.0, 0.0, -1.0], offset: far },
         ]
     }
 

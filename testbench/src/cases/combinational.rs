@@ -24,7 +24,7 @@ fn edge(rng: &mut Rng, f: &Formats) -> (EdgeValue, Slope, Slope, LowBits) {
         _ => rng.i64(-1 - a.abs() - b.abs()..=1 + a.abs() + b.abs()) * 3 / 8,
     };
     let [a, b] = [a, b].map(|n| Slope::new(n, f));
-    (EdgeValue::wrap(value, f), a, b, LowBits::new(rng.i64(..8), f))
+    (EdgeValue::wrap(value, f), a, b, LowBits::new(rng.i64(0..8), f))
 }
 
 fn join(edges: [(EdgeValue, Slope, Slope, LowBits); 3]) -> CoverageEdges {
@@ -109,7 +109,7 @@ pub fn blend_corners(config: &Config) -> Case {
                     alpha,
                     area: Area::new(area.into(), f),
                     background: [b, s, b],
-                    tag: Tag::new((i64::from(s) << 8) + i64::from(b), f),
+                    tag: Tag::wrap(i64::from(s ^ b), f),
                 };
                 case.give(&pixel);
                 case.expect(&blend(&pixel, f));

@@ -10,10 +10,11 @@ mod systems;
 
 use std::fmt;
 use wheatstone_golden::config::Config;
+use wheatstone_golden::frame::Frames;
 use wheatstone_golden::interface::{Beat, Direction, Interface, Table};
 use wheatstone_golden::targets::{Probe, Target};
 
-pub use systems::{random_polygons, recorded};
+pub use systems::{output_number, random_polygons, recorded, recorded_unit};
 
 /// What a target is fed and what must come out.
 #[derive(Clone, Debug)]
@@ -34,6 +35,8 @@ pub struct Case {
     pub flags: Vec<u64>,
     /// Beats expected at the units inside a system.
     pub probes: Vec<(Probe, Table)>,
+    /// For a system: its frame buffers before, and what they must hold after.
+    pub memory: Option<Box<[Frames; 2]>>,
 }
 
 impl Case {
@@ -58,6 +61,7 @@ impl Case {
             outputs: tables(Direction::Output),
             flags: vec![0; interface.flags.len()],
             probes: Vec::new(),
+            memory: None,
         }
     }
 
@@ -69,6 +73,14 @@ impl Case {
     /// Adds a beat to the first output stream.
     fn expect<B: Beat>(&mut self, beat: &B) {
         self.outputs[0].push(beat);
+    }
+
+    /// The answers that the golden model got to a system's reads.
+    pub fn responses(&self) -> Option<&Table> {
+        let interface = self.interface();
+        let inputs = interface.streams.iter().filter(|s| s.direction == Direction::Input);
+        let answers = inputs.zip(&self.inputs).find(|(stream, _)| stream.answers.is_some());
+        answers.map(|(_, table)| table)
     }
 
     /// Beats given to the first input of a unit, or to `beat` of a system.

@@ -5,6 +5,7 @@ use fastrand::Rng;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
 use wheatstone_golden::interface::{Direction, Table};
+use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::pipeline::{Edges, Mode, Op, PrimaryBeat, Setup};
 use wheatstone_golden::primary::Sink;
 use wheatstone_golden::random::{Class, Triangles};
@@ -32,6 +33,74 @@ pub fn recorded(target: Target, job: &Job, name: &str, recording: &Recording) ->
         let table = recording.outputs.get(&probe.unit).cloned().unwrap_or_else(empty);
         case.probes.push((probe, table));
     }
+    case
+}
+
+/// The instance of a unit that stands for it in a system.
+fn instance(target: Target) -> Option<Unit> {
+    Some(match target {
+        Target::XInterpolator => Unit::XInterpolator,
+        Target::YInterpolator => Unit::YInterpolator,
+        Target::EdgeInterpolator => Unit::Edge0,
+        Target::Sampler => Unit::Sampler,
+        Target::Filter => Unit::Filter,
+        Target::Coverage => Unit::Coverage,
+        Target::Blend => Unit::Blend,
+        Target::Display => Unit::Display,
+        Target::Redirect => Unit::Redirect,
+        Target::Minimal | Target::Hybrid => return None,
+    })
+}
+
+/// The case of what a unit did inside the hybrid.
+pub fn recorded_unit(target: Target, job: &Job, name: &str, recording: &Recording) -> Case {
+    let mut case = Case::empty(target, &job.config, name);
+    let Some(unit) = instance(target) else { return case };
+    if let Some(table) = recording.inputs.get(&unit) {
+        case.inputs = vec![table.clone()];
+    }
+    if let Some(table) = recording.outputs.get(&unit) {
+        case.outputs = vec![table.clone()];
+    }
+    if target == Target::Redirect {
+        case.outputs = ["left", "right"].map(|stream| recording.streams[stream].clone()).to_vec();
+    }
+    case.statics = match target {
+        Target::XInterpolator | Target::Display => vec![job.width.into()],
+        Target::YInterpolator => vec![job.height.into()],
+        Target::Redirect => vec![job.options.single.into()],
+        _ => Vec::new(),
+    };
+    case
+}
+
+/// Number of the beat that a unit gives for a secondary pixel, by its place on the display.
+pub fn output_number(target: Target, recording: &Recording, x: u32, y: u32) -> Option<u64> {
+    let table = |unit: Unit| recording.outputs.get(&unit);
+    let at = |row: &[u64]| row[0] == u64::from(x) && row[1] == u64::from(y);
+    let (place, xs, ys) = (table(Unit::Display)?, table(Unit::XInterpolator)?, table(Unit::YInterpolator)?);
+    let ends = |n: &usize| xs.row(*n)[7] | ys.row(*n)[3] == 1;
+    let beat = (0..place.len()).filter(ends).find(|&n| at(place.row(n)))?;
+    match target {
+        Target::Sampler | Target::Filter => Some((0..beat).filter(ends).count() as u64),
+        Target::Blend => {
+            let requests = recording.streams.get("request")?;
+            (0..requests.len()).find(|&n| at(&requests.row(n)[1..])).map(|n| n as u64)
+        }
+        Target::Redirect => {
+            let slots = recording.inputs.get(&Unit::Redirect)?;
+            // Fields 9 and 10: the secondary's place.
+            (0..slots.len()).find(|&n| at(&slots.row(n)[9..])).map(|n| n as u64)
+        }
+        _ => Some(beat as u64),
+    }
+}
+
+/// The case of all that is on a tape.
+fn whole(target: Target, job: &Job, name: &str, mut tape: Tape) -> Case {
+    let before = job.frames(target == Target::Minimal);
+    let mut case = recorded(target, job, name, &tape.take());
+    case.memory = Some(Box::new([before, tape.frames().clone()]));
     case
 }
 
@@ -96,7 +165,7 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
             break;
         }
     }
-    recorded(target, &nothing, "random polygons", &tape.take())
+    whole(target, &nothing, "random polygons", tape)
 }
 
 fn job<'a>(config: &Config, options: Options, size: [u32; 2], polygons: &'a [Polygon]) -> Job<'a> {
@@ -122,7 +191,7 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let good = job(config, options, size, &polygons);
     let mut tape = Tape::new(&good, minimal, false);
     good.run(minimal, &mut Spoiler { sink: tape.sink(), formats: f, polygon: 0 });
-    let spoiled = recorded(target, &good, "bad setups", &tape.take());
+    let spoiled = whole(target, &good, "bad setups", tape);
 
     let mut tape = Tape::new(&good, minimal, false);
     let stray =
@@ -130,7 +199,9 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     tape.sink().beat(&stray);
     tape.sink().beat(&PrimaryBeat { op: Op::Row, last: true, ..stray });
     good.run(minimal, tape.sink());
-    let stray = recorded(target, &good, "beats before the first polygon", &tape.take());
+    let mut stray = whole(target, &good, "beats before the first polygon", tape);
+    // Inside, such beats show whatever the registers held after power-up.
+    stray.probes.clear();
     vec![spoiled, stray]
 }
 

@@ -11,7 +11,7 @@ mod write;
 
 pub use check::{check, Checked};
 pub use error::PackError;
-pub use write::{write, PackInfo};
+pub use write::{rtl_hash, write, PackInfo};
 
 use serde::{Deserialize, Serialize};
 use wheatstone_golden::interface::{Field, Kind};

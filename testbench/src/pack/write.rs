@@ -31,6 +31,18 @@ pub fn write(case: &Case, seed: u64, rtl_blake3: &str, out: &Path) -> Result<Pac
     Ok(PackInfo { beats: manifest.ports.iter().map(|p| p.beats).sum(), folder, manifest })
 }
 
+/// Hash of the Verilog that a module can use.
+pub fn rtl_hash(rtl: &Path, module: &str) -> Result<String, PackError> {
+    let sources = crate::sources::read(rtl, module)
+        .map_err(|e| PackError::File { path: e.path, source: e.source })?;
+    let mut hasher = blake3::Hasher::new();
+    for (name, content) in &sources {
+        hasher.update(format!("{name} {}\n", content.len()).as_bytes());
+        hasher.update(content);
+    }
+    Ok(hasher.finalize().to_hex().to_string())
+}
+
 /// Puts a finished folder in the place of an older one.
 fn replace(finished: tempfile::TempDir, folder: &Path) -> Result<(), PackError> {
     use std::os::unix::fs::PermissionsExt;

@@ -48,7 +48,7 @@ pub fn tiles(light: Colour, dark: Colour) -> Texture {
         if edge(x) < 0.02 || edge(y) < 0.02 {
             return [96.0, 92.0, 88.0];
         }
-        let tile = if (x as u32 + y as u32) % 2 == 0 { light } else { dark };
+        let tile = if (x as u32 + y as u32).is_multiple_of(2) { light } else { dark };
         let grain = noise(u, v, 16, 16, 1) * 0.6 + noise(u, v, 48, 48, 2) * 0.4;
         shade(tile, 0.86 + 0.22 * grain)
     })

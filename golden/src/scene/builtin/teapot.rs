@@ -164,7 +164,7 @@ pub fn scene(width: u32, height: u32) -> Scene {
         lighting: Some(Lighting { ambient: [0.26, 0.26, 0.29], lights: vec![key, fill] }),
         environment: Environment::default(),
         materials: vec![Material {
-            diffuse: [0.84, 0.36, 0.18],
+            diffuse: [0.84, 0.58, 0.38],
             specular: [0.6; 3],
             exponent: 48,
             ..Material::default()

@@ -1,0 +1,89 @@
+// Box filter: the average of the primary pixels that fall in one secondary pixel, up to 29 of them.
+//
+// Latency: one clock from the pixel's last beat. The sums are the only registers; the division
+// follows them.
+// Reset: rst_i clears valid_q; sums and count start afresh at the first beat of a pixel.
+// Paper: sections 5.6 and 5.6.1.
+`include "sam_formats.vh"
+`default_nettype none
+
+module sam_filter #(
+    // Division by n: 2 or 3 for 1/n as so many powers of two, 0 for an exact one.
+    parameter FILTER_TERMS = 0
+) (
+    input  wire                       clk_i,
+    input  wire                       rst_i,
+
+    input  wire                       beat_valid_i,
+    output wire                       beat_ready_o,
+    input  wire                       beat_first_i,
+    input  wire                       beat_end_i,
+    input  wire                       beat_include_i,
+    input  wire [`SAM_RGBA_BITS-1:0]  beat_rgba_i,
+
+    output wire                       pixel_valid_o,
+    input  wire                       pixel_ready_i,
+    output wire [`SAM_RGBA_BITS-1:0]  pixel_rgba_o,
+    output wire [`SAM_COUNT_BITS-1:0] pixel_count_o
+);
+    localparam N        = `SAM_COUNT_BITS;
+    localparam CHANNELS = `SAM_RGBA_BITS / `SAM_CHANNEL_BITS;
+
+    generate
+        if (FILTER_TERMS != 0 && FILTER_TERMS != 2 && FILTER_TERMS != 3) begin : g_illegal
+            sam_filter_FILTER_TERMS_must_be_0_or_2_or_3 u_error ();
+        end
+    endgenerate
+
+    reg         valid_q;
+    reg [N-1:0] count_q;
+
+    wire         accept = beat_valid_i & beat_ready_o;
+    wire         clear  = accept & beat_first_i;
+    wire         full   = (count_q == `SAM_FILTER_LIMIT) & ~beat_first_i;
+    wire         add    = accept & beat_include_i & ~full;
+    wire [N-1:0] so_many = clear ? {N{1'b0}} : count_q;
+
+    assign beat_ready_o = ~valid_q | pixel_ready_i;
+
+    // No clock enable here nor at the sums: what is not accepted adds nothing.
+    always @(posedge clk_i) begin
+        if (rst_i)             valid_q <= 1'b0;
+        else if (beat_ready_o) valid_q <= beat_valid_i & beat_end_i;
+
+        count_q <= so_many + {{(N - 1){1'b0}}, add};
+    end
+
+    // Half of n rides on the sum of the exact division: one more at n = 2, 4, 6...
+    // At n = 1 the sum is one too high too, which lets the reciprocal 2^18 be 2^18 - 1 and fit the
+    // 18 bits of a multiplier; n = 2 then needs no more.
+    wire half = (FILTER_TERMS == 0) & add & ((so_many == 0) | (so_many[0] & (so_many != 1)));
+
+    genvar i;
+    generate
+        for (i = 0; i < CHANNELS; i = i + 1) begin : g_channel
+            reg  [12:0] sum_q;
+            wire [12:0] so_far = clear ? 13'd0 : sum_q;
+            wire [12:0] more   = add ? {5'd0, beat_rgba_i[8*i +: 8]} : 13'd0;
+
+            // The lowest bit is there to carry `half` into the adder.
+            wire [13:0] total  = {so_far, 1'b1} + {more, half};
+
+            always @(posedge clk_i) sum_q <= total[13:1];
+            wire unused = &{1'b0, total[0]};
+
+            sam_filter_division #(
+                .FILTER_TERMS(FILTER_TERMS)
+            ) u_division (
+                .sum_i     (sum_q),
+                .count_i   (count_q),
+                .quotient_o(pixel_rgba_o[8*i +: 8])
+            );
+        end
+    endgenerate
+
+    assign pixel_valid_o = valid_q;
+    assign pixel_count_o = count_q;
+endmodule
+
+`default_nettype wire

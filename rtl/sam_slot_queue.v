@@ -1,0 +1,249 @@
+// Queue between the background read of a secondary pixel and the pixel's output: holds slots of a
+// primary and a secondary pixel in order while reads and blending are under way.
+//
+//   slot -> memory, request     response -> depth test, pixel -> (blend) -> colour, out
+//
+// A read waits while a slot in the queue holds a pixel of the same eye at the same place, so that
+// memory which reads in order never answers with what has since been overwritten.
+//
+// Latency: one clock from slot to request; from response on that of sam_blend.
+// Reset: rst_i empties the queue; what the memory holds stays.
+// Paper: section 5.7 (background), 6 (synchronisation of the pipelines).
+`include "sam_formats.vh"
+`default_nettype none
+
+module sam_slot_queue #(
+    // Fraction bits of a snapped vertex, sets the width of a coordinate: 4 or 8.
+    parameter SUBPIXEL_BITS = 8,
+    // 16 coverage samples a pixel, sets the width of an area: 0 or 1.
+    parameter ANTIALIAS = 0,
+    // Depth tested by the memory instead of here: 0 or 1.
+    parameter DEPTH_EXTERNAL = 0,
+    // Slots in flight: 2, 4, 8, 16 or 32.
+    parameter SLOTS = 16
+) (
+    input  wire                                           clk_i,
+    input  wire                                           rst_i,
+
+    input  wire                                           slot_valid_i,
+    output wire                                           slot_ready_o,
+    input  wire                                           slot_primary_i,
+    input  wire                                           slot_secondary_i,
+    input  wire                                           slot_eye_i,
+    input  wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] slot_primary_x_i,
+    input  wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] slot_primary_y_i,
+    input  wire [`SAM_RGBA_BITS-1:0]                      slot_primary_rgba_i,
+    input  wire [`SAM_AREA_BITS(ANTIALIAS)-1:0]           slot_primary_area_i,
+    input  wire [`SAM_DEPTH_BITS-1:0]                     slot_primary_depth_i,
+    input  wire                                           slot_primary_write_i,
+    input  wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] slot_secondary_x_i,
+    input  wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] slot_secondary_y_i,
+    input  wire [`SAM_RGBA_BITS-1:0]                      slot_secondary_rgba_i,
+    input  wire [`SAM_AREA_BITS(ANTIALIAS)-1:0]           slot_secondary_area_i,
+    input  wire [`SAM_DEPTH_BITS-1:0]                     slot_secondary_depth_i,
+    input  wire                                           slot_secondary_write_i,
+
+    output wire                                           request_valid_o,
+    input  wire                                           request_ready_i,
+    output wire                                           request_eye_o,
+    output wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] request_x_o,
+    output wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] request_y_o,
+
+    input  wire                                           response_valid_i,
+    output wire                                           response_ready_o,
+    input  wire [`SAM_DEPTH_BITS-1:0]                     response_depth_i,
+
+    // To blend, whose background is the response's colour; `visible` comes back with the colour.
+    output wire                                           pixel_valid_o,
+    input  wire                                           pixel_ready_i,
+    output wire [`SAM_RGBA_BITS-1:0]                      pixel_rgba_o,
+    output wire [`SAM_AREA_BITS(ANTIALIAS)-1:0]           pixel_area_o,
+    output wire                                           pixel_visible_o,
+    input  wire                                           colour_valid_i,
+    output wire                                           colour_ready_o,
+    input  wire [`SAM_RGB_BITS-1:0]                       colour_rgb_i,
+    input  wire                                           colour_visible_i,
+
+    output wire                                           out_valid_o,
+    input  wire                                           out_ready_i,
+    output wire                                           out_primary_o,
+    output wire                                           out_secondary_o,
+    output wire                                           out_eye_o,
+    output wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] out_primary_x_o,
+    output wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] out_primary_y_o,
+    output wire [`SAM_RGBA_BITS-1:0]                      out_primary_rgba_o,
+    output wire [`SAM_AREA_BITS(ANTIALIAS)-1:0]           out_primary_area_o,
+    output wire [`SAM_DEPTH_BITS-1:0]                     out_primary_depth_o,
+    output wire                                           out_primary_write_o,
+    output wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] out_secondary_x_o,
+    output wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] out_secondary_y_o,
+    output wire [`SAM_RGBA_BITS-1:0]                      out_secondary_rgba_o,
+    output wire [`SAM_AREA_BITS(ANTIALIAS)-1:0]           out_secondary_area_o,
+    output wire [`SAM_DEPTH_BITS-1:0]                     out_secondary_depth_o,
+    output wire                                           out_secondary_write_o
+);
+    localparam C = `SAM_COORDINATE_BITS(SUBPIXEL_BITS);
+    localparam A = `SAM_AREA_BITS(ANTIALIAS);
+    localparam D = `SAM_DEPTH_BITS;
+    localparam N = SLOTS == 2 ? 1 : SLOTS == 4 ? 2 : SLOTS == 8 ? 3 : SLOTS == 16 ? 4 : 5;
+
+    generate
+        if (SUBPIXEL_BITS != 4 && SUBPIXEL_BITS != 8) begin : g_illegal_subpixel_bits
+            sam_slot_queue_SUBPIXEL_BITS_must_be_4_or_8 u_error ();
+        end
+        if (ANTIALIAS != 0 && ANTIALIAS != 1) begin : g_illegal_antialias
+            sam_slot_queue_ANTIALIAS_must_be_0_or_1 u_error ();
+        end
+        if (DEPTH_EXTERNAL != 0 && DEPTH_EXTERNAL != 1) begin : g_illegal_depth_external
+            sam_slot_queue_DEPTH_EXTERNAL_must_be_0_or_1 u_error ();
+        end
+        if (SLOTS != 2 && SLOTS != 4 && SLOTS != 8 && SLOTS != 16 && SLOTS != 32) begin : g_illegal_slots
+            sam_slot_queue_SLOTS_must_be_2_or_4_or_8_or_16_or_32 u_error ();
+        end
+    endgenerate
+
+    // Where slots enter, where a response is due, where slots leave. One bit more than an index
+    // has, to tell a full queue from an empty one.
+    reg [N:0] enter_q;
+    reg [N:0] answer_q;
+    reg [N:0] leave_q;
+
+    wire [N-1:0] enter_index  = enter_q[N-1:0];
+    wire [N-1:0] answer_index = answer_q[N-1:0];
+    wire [N-1:0] leave_index  = leave_q[N-1:0];
+
+    wire full    = enter_q == {~leave_q[N], leave_index};
+    wire empty   = enter_q == leave_q;
+    wire settled = enter_q == answer_q;
+
+    wire push, pop;
+
+    // Three memories, by who reads: blend, both, the output. Without write enables per pixel, as a
+    // pixel that a slot has not got is not looked at.
+    reg [`SAM_RGB_BITS-1:0]              source_q [0:SLOTS-1];
+    reg [A+D+8:0]                        tested_q [0:SLOTS-1];
+    reg [4*C+`SAM_RGBA_BITS+A+D+3:0]     placed_q [0:SLOTS-1];
+
+    always @(posedge clk_i) begin
+        if (push) begin
+            source_q[enter_index] <= slot_secondary_rgba_i[`SAM_RGB_BITS-1:0];
+            tested_q[enter_index] <= {
+                slot_secondary_i, slot_secondary_rgba_i[`SAM_RGBA_BITS-1:`SAM_RGB_BITS],
+                slot_secondary_area_i, slot_secondary_depth_i
+            };
+            placed_q[enter_index] <= {
+                slot_primary_i, slot_eye_i, slot_primary_write_i, slot_secondary_write_i,
+                slot_primary_x_i, slot_primary_y_i, slot_primary_rgba_i, slot_primary_area_i,
+                slot_primary_depth_i, slot_secondary_x_i, slot_secondary_y_i
+            };
+        end
+    end
+
+    // Response: passes over slots without a secondary, one a clock.
+    wire         answer_secondary;
+    wire [7:0]   answer_alpha;
+    wire [D-1:0] answer_depth;
+
+    assign {answer_secondary, answer_alpha, pixel_area_o, answer_depth} = tested_q[answer_index];
+
+    wire answered = response_valid_i & pixel_ready_i;
+
+    assign pixel_valid_o    = response_valid_i & ~settled & answer_secondary;
+    assign response_ready_o = pixel_ready_i & ~settled & answer_secondary;
+    assign pixel_rgba_o     = {answer_alpha, source_q[answer_index]};
+    assign pixel_visible_o  = (DEPTH_EXTERNAL != 0) | (answer_depth < response_depth_i);
+
+    // Output: a slot with a secondary waits for its colour.
+    wire       leave_secondary;
+    wire [7:0] leave_alpha;
+
+    assign {leave_secondary, leave_alpha, out_secondary_area_o, out_secondary_depth_o} =
+        tested_q[leave_index];
+    assign {
+        out_primary_o, out_eye_o, out_primary_write_o, out_secondary_write_o,
+        out_primary_x_o, out_primary_y_o, out_primary_rgba_o, out_primary_area_o,
+        out_primary_depth_o, out_secondary_x_o, out_secondary_y_o
+    } = placed_q[leave_index];
+    assign out_valid_o          = ~empty & (~leave_secondary | colour_valid_i);
+    assign out_secondary_o      = leave_secondary & colour_visible_i;
+    assign out_secondary_rgba_o = {leave_alpha, colour_rgb_i};
+    assign colour_ready_o       = ~empty & leave_secondary & out_ready_i;
+    assign pop                  = out_valid_o & out_ready_i;
+
+    // Read: which slots hold its place is found when it enters; it then waits for them to leave.
+    reg              read_q;
+    reg              read_eye_q;
+    reg [C-1:0]      read_x_q;
+    reg [C-1:0]      read_y_q;
+    reg [SLOTS-1:0]  blocked_q;
+    wire [SLOTS-1:0] same_place;
+    wire [SLOTS-1:0] leaving;
+
+    wire request_taken = request_valid_o & request_ready_i;
+
+    assign push            = slot_valid_i & slot_ready_o;
+    assign slot_ready_o    = ~full & (~slot_secondary_i | ~read_q | request_taken);
+    assign request_valid_o = read_q & (blocked_q == {SLOTS{1'b0}});
+    assign request_eye_o   = read_eye_q;
+    assign request_x_o     = read_x_q;
+    assign request_y_o     = read_y_q;
+
+    always @(posedge clk_i) begin
+        if (rst_i) begin
+            enter_q  <= {(N + 1){1'b0}};
+            answer_q <= {(N + 1){1'b0}};
+            leave_q  <= {(N + 1){1'b0}};
+            read_q   <= 1'b0;
+        end else begin
+            if (push) enter_q <= enter_q + {{N{1'b0}}, 1'b1};
+            if (~settled & (~answer_secondary | answered)) answer_q <= answer_q + {{N{1'b0}}, 1'b1};
+            if (pop) leave_q <= leave_q + {{N{1'b0}}, 1'b1};
+            read_q <= (push & slot_secondary_i) | (read_q & ~request_taken);
+        end
+
+        if (push & slot_secondary_i) begin
+            read_eye_q <= ~slot_eye_i;
+            read_x_q   <= slot_secondary_x_i;
+            read_y_q   <= slot_secondary_y_i;
+            blocked_q  <= same_place & ~leaving;
+        end else begin
+            blocked_q  <= blocked_q & ~leaving;
+        end
+    end
+
+    // The places are kept a second time in registers, as all are compared at once.
+    genvar i;
+    generate
+        for (i = 0; i < SLOTS; i = i + 1) begin : g_place
+            reg           occupied_q;
+            reg           primary_q;
+            reg           secondary_q;
+            reg           eye_q;
+            reg [2*C-1:0] primary_place_q;
+            reg [2*C-1:0] secondary_place_q;
+
+            // The secondary that enters is of the eye that is not `slot_eye_i`.
+            wire           other = eye_q != slot_eye_i;
+            wire           held  = other ? primary_q : secondary_q;
+            wire [2*C-1:0] place = other ? primary_place_q : secondary_place_q;
+
+            assign leaving[i]    = pop & (leave_index == i);
+            assign same_place[i] = occupied_q & held & (place == {slot_secondary_x_i, slot_secondary_y_i});
+
+            always @(posedge clk_i) begin
+                if (rst_i) occupied_q <= 1'b0;
+                else       occupied_q <= (push & (enter_index == i)) | (occupied_q & ~leaving[i]);
+
+                if (push & (enter_index == i)) begin
+                    primary_q         <= slot_primary_i;
+                    secondary_q       <= slot_secondary_i;
+                    eye_q             <= slot_eye_i;
+                    primary_place_q   <= {slot_primary_x_i, slot_primary_y_i};
+                    secondary_place_q <= {slot_secondary_x_i, slot_secondary_y_i};
+                end
+            end
+        end
+    endgenerate
+endmodule
+
+`default_nettype wire

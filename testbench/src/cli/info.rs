@@ -1,0 +1,67 @@
+//! `wheatstone list` and `wheatstone doctor`.
+
+use super::*;
+use crate::settings::RUN_PARAMETERS;
+use crate::tools::Doctor;
+use wheatstone_golden::config::{Config, Parameter, PARAMETERS};
+
+#[derive(Debug, Args)]
+pub(super) struct ListArgs {
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct DoctorArgs {}
+
+pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
+    if args.json {
+        println!("{:#}", list_json());
+        return Ok(OK);
+    }
+    println!("Targets");
+    for target in Target::ALL {
+        println!("  {:<20}{}", target.name(), target.purpose());
+    }
+    println!("\nBuild parameters (--param NAME=VALUE){:>23}{:>10}{:>10}", Config::NAMES[0], Config::NAMES[1], Config::NAMES[2]);
+    let configs = [Config::DEFAULT, Config::PAPER, Config::FULL];
+    for parameter in &PARAMETERS {
+        let name = format!("{}={}", parameter.name, parameter.values.join("|"));
+        let values = configs.map(|c| format!("{:>10}", c.value(parameter)));
+        println!("  {name:<45}{:>13}{}{}", values[0].trim(), values[1], values[2]);
+        println!("      {}", parameter.help);
+    }
+    println!("\nRun parameters (--param NAME=VALUE), the first value is the usual one");
+    for parameter in &RUN_PARAMETERS {
+        println!("  {}={}\n      {}", parameter.name, parameter.values.join("|"), parameter.help);
+    }
+    println!("\nScenes (--scene NAME), or a file ending in .obj or .json");
+    for scene in &builtin::SCENES {
+        println!("  {:<20}{}", scene.name, scene.description);
+    }
+    Ok(OK)
+}
+
+fn list_json() -> serde_json::Value {
+    let parameter = |p: &Parameter| {
+        serde_json::json!({ "name": p.name, "verilog": p.verilog, "values": p.values, "help": p.help })
+    };
+    serde_json::json!({
+        "targets": Target::ALL.map(|t| serde_json::json!({
+            "name": t.name(), "module": t.module(), "system": t.is_system(), "purpose": t.purpose(),
+        })),
+        "build_parameters": PARAMETERS.iter().map(parameter).collect::<Vec<_>>(),
+        "run_parameters": RUN_PARAMETERS.iter().map(parameter).collect::<Vec<_>>(),
+        "configurations": Config::NAMES,
+        "scenes": builtin::SCENES.iter().map(|s| serde_json::json!({
+            "name": s.name, "description": s.description,
+        })).collect::<Vec<_>>(),
+    })
+}
+
+pub(super) fn doctor(_: &DoctorArgs) -> Result<u8, Failure> {
+    let doctor = Doctor::examine();
+    println!("{doctor}");
+    Ok(if doctor.is_ready() { OK } else { MISSING_TOOL })
+}

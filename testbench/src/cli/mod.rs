@@ -1,0 +1,277 @@
+//! The program `wheatstone`.
+//!
+//! Exit status: 0 all compared and equal, 1 mismatch, 2 bad input, 3 a tool is missing.
+
+mod cosim;
+mod info;
+mod render;
+mod vectors;
+mod waves;
+
+use crate::pack::PackError;
+use crate::regression::RegressionError;
+use crate::settings::{SettingError, Settings};
+use crate::tools::{ToolError, Toolchain};
+use crate::{BuildError, Builder};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use thiserror::Error;
+use wheatstone_golden::formats::Formats;
+use wheatstone_golden::picture::WriteError;
+use wheatstone_golden::scene::{self, builtin, Cull, Geometry, SceneError};
+use wheatstone_golden::setup::Options;
+use wheatstone_golden::stereo::Job;
+use wheatstone_golden::targets::Target;
+
+/// Everything worked and was equal.
+const OK: u8 = 0;
+/// Something was compared and differs.
+const MISMATCH: u8 = 1;
+/// The input is wrong.
+const BAD_INPUT: u8 = 2;
+/// A tool is missing.
+const MISSING_TOOL: u8 = 3;
+
+/// An open stereoscopic rasteriser: simulate it, prove it, put it on an FPGA.
+///
+/// Exit status: 0 all compared and equal, 1 mismatch, 2 bad input, 3 a tool is missing.
+#[derive(Debug, Parser)]
+#[command(name = "wheatstone", version, arg_required_else_help = true, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "Examples:
+  wheatstone cosim                                  the whole regression
+  wheatstone cosim hybrid --scene teapot            one scene through the hybrid, pixel for pixel
+  wheatstone cosim filter --param filter=2          one unit, another build
+  wheatstone vectors filter --out packs             vectors for a board or another simulator
+  wheatstone waves hybrid --pixel right,320,200     waveforms around one pixel
+  wheatstone render --method hybrid --out pictures --stereo anaglyph";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run targets against the golden model in Verilator and compare every beat and pixel
+    Cosim(cosim::CosimArgs),
+    /// Write vector packs: stimulus and expected beats for boards and other simulators
+    Vectors(vectors::VectorsArgs),
+    /// Verify a vector pack, or a folder of them
+    Check(vectors::CheckArgs),
+    /// Write waveforms of a target, with a view for GTKWave and Surfer
+    Waves(waves::WavesArgs),
+    /// Draw a scene in stereo with the golden model
+    Render(render::RenderArgs),
+    /// List targets, configurations, parameters and scenes
+    List(info::ListArgs),
+    /// Show which tools are found and how to install what is missing
+    Doctor(info::DoctorArgs),
+}
+
+/// Options that several commands take.
+#[derive(Clone, Debug, Args)]
+struct Common {
+    /// Named set of build parameters
+    #[arg(long, default_value = "default", value_name = "default|paper|full")]
+    config: String,
+    /// Change one parameter (see `wheatstone list`); may be repeated
+    #[arg(long = "param", value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// Built-in scene, or a file ending in .obj or .json
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: Option<String>,
+    /// Size of each view in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Rig file: eyes, screen, placement and light (JSON)
+    #[arg(long, value_name = "FILE")]
+    rig: Option<PathBuf>,
+    /// Which faces to leave out
+    #[arg(long, value_enum, default_value = "none")]
+    cull: CullChoice,
+}
+
+/// Options of the commands that simulate or make vectors.
+#[derive(Clone, Debug, Args)]
+struct Stimulus {
+    /// Seed of random beats, stalls and initial state
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Number of random beats of each target
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+    beats: Option<u64>,
+    /// Folder of the Verilog [default: rtl of this workspace]
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum CullChoice {
+    /// None
+    None,
+    /// Those that an eye sees clockwise
+    Back,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let parsed = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    parsed.ok_or_else(|| "expected WIDTHxHEIGHT in pixels, for example 640x480".into())
+}
+
+fn parse_target(text: &str) -> Result<Target, String> {
+    let names: Vec<&str> = Target::ALL.iter().map(|t| t.name()).collect();
+    let text = text.strip_prefix("sam_").unwrap_or(text);
+    Target::named(text).ok_or_else(|| format!("no such target; there are: {}", names.join(", ")))
+}
+
+/// Why a command could not do its work.
+#[derive(Debug, Error)]
+enum Failure {
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    #[error(transparent)]
+    Pack(#[from] PackError),
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+    #[error(transparent)]
+    Regression(#[from] RegressionError),
+    #[error("{0}")]
+    Input(String),
+}
+
+impl Failure {
+    fn status(&self) -> u8 {
+        match self {
+            Failure::Tool(_) | Failure::Regression(RegressionError::Build(BuildError::Tool(_))) => {
+                MISSING_TOOL
+            }
+            _ => BAD_INPUT,
+        }
+    }
+}
+
+/// Runs the program.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let result = match &cli.command {
+        Command::Cosim(args) => cosim::run(args),
+        Command::Vectors(args) => vectors::write(args),
+        Command::Check(args) => vectors::check(args),
+        Command::Waves(args) => waves::run(args),
+        Command::Render(args) => render::run(args),
+        Command::List(args) => info::list(args),
+        Command::Doctor(args) => info::doctor(args),
+    };
+    let status = result.unwrap_or_else(|failure| {
+        eprintln!("error: {failure}");
+        failure.status()
+    });
+    ExitCode::from(status)
+}
+
+impl Common {
+    fn settings(&self) -> Result<Settings, Failure> {
+        Ok(Settings::new(&self.config, &self.parameters)?)
+    }
+
+    /// A scene's polygons for these settings.
+    fn geometry(&self, name: &str, size: Option<[u32; 2]>, settings: &Settings) -> Result<Geometry, Failure> {
+        let scene = scene::open(name, size, self.rig.as_deref())?;
+        let cull = match self.cull {
+            CullChoice::None => Cull::None,
+            CullChoice::Back => Cull::Back,
+        };
+        let options = scene::Options { cull, ..scene::Options::default() };
+        Ok(scene.geometry(&Formats::new(&settings.config), &options)?)
+    }
+
+    /// The words of the command line that chose configuration, scene and size.
+    fn words(&self) -> Vec<String> {
+        let mut words = Vec::new();
+        if self.config != "default" {
+            words.push(format!("--config {}", self.config));
+        }
+        words.extend(self.parameters.iter().map(|p| format!("--param {p}")));
+        if let Some(scene) = &self.scene {
+            words.push(format!("--scene {scene}"));
+        }
+        if let Some([width, height]) = self.size {
+            words.push(format!("--size {width}x{height}"));
+        }
+        if let Some(rig) = &self.rig {
+            words.push(format!("--rig {}", rig.display()));
+        }
+        if self.cull == CullChoice::Back {
+            words.push("--cull back".into());
+        }
+        words
+    }
+}
+
+impl Stimulus {
+    /// The folder of the Verilog.
+    fn rtl(&self) -> Result<PathBuf, Failure> {
+        if let Some(folder) = &self.rtl {
+            return Ok(folder.clone());
+        }
+        let here = std::env::current_dir().unwrap_or_default();
+        let source = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let folders = here.ancestors().chain(source.ancestors()).map(|folder| folder.join("rtl"));
+        let mut found = folders.filter(|folder| folder.join("sam_formats.vh").exists());
+        found.next().ok_or_else(|| {
+            Failure::Input("no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into())
+        })
+    }
+}
+
+/// The job that draws a scene's polygons.
+fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Options) -> Job<'a> {
+    Job {
+        config: settings.config,
+        options,
+        width: geometry.width,
+        height: geometry.height,
+        background: geometry.background.rgb(),
+        polygons: &geometry.polygons,
+        textures: &geometry.textures,
+        lookup: settings.lookup,
+    }
+}
+
+/// A builder of models that tells on the terminal what it does.
+fn builder(quiet: bool) -> Result<Builder, Failure> {
+    let builder = Builder::new(Toolchain::find()?, cache_folder());
+    Ok(builder.on_progress(move |progress| {
+        if !quiet {
+            eprintln!("{progress}");
+        }
+    }))
+}
+
+/// Folder for built models, in the workspace if there is one.
+fn cache_folder() -> PathBuf {
+    let here = std::env::current_dir().unwrap_or_default();
+    let workspace = here.ancestors().find(|folder| folder.join("rtl/sam_formats.vh").exists());
+    workspace.unwrap_or(&here).join(Builder::CACHE)
+}
+
+/// Folder for what a command writes when no other is named.
+fn output_folder(name: &str) -> PathBuf {
+    Path::new("target/wheatstone").join(name)
+}
+
+/// Whether progress can be drawn over.
+fn is_terminal() -> bool {
+    std::io::stderr().is_terminal()
+}
+
+/// Names of the built-in scenes.
+fn builtin_names() -> impl Iterator<Item = &'static str> {
+    builtin::SCENES.iter().map(|scene| scene.name)
+}

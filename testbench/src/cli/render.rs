@@ -1,0 +1,115 @@
+//! `wheatstone render`.
+
+use super::*;
+use crate::regression::drawn_line;
+use wheatstone_golden::formats::{Eye, Rgba};
+use wheatstone_golden::frame::{Frame, NO_ID};
+use wheatstone_golden::picture::{colour_picture, id_picture, psnr, write_png, Composite, Views};
+
+#[derive(Debug, Args)]
+pub(super) struct RenderArgs {
+    /// How the second view is made
+    #[arg(long, value_enum, default_value = "hybrid")]
+    method: MethodChoice,
+    /// Folder for the pictures; it is made if need be
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Composites of both views to write too
+    #[arg(long, value_delimiter = ',', value_name = "KIND", value_parser = parse_composite,
+        help = "Composites to write too: anaglyph, parallel, crossed, interleaved, wiggle")]
+    stereo: Vec<Composite>,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MethodChoice {
+    /// Each view rasterised for itself
+    Direct,
+    /// The minimal system: spatial mapping and sampling only
+    Minimal,
+    /// The hybrid system
+    Hybrid,
+}
+
+fn parse_composite(text: &str) -> Result<Composite, String> {
+    let names = Composite::ALL.map(|c| c.name()).join(", ");
+    Composite::named(text).ok_or_else(|| format!("there are: {names}"))
+}
+
+pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
+    let settings = args.common.settings()?;
+    let name = args.common.scene.as_deref().unwrap_or("teapot");
+    let geometry = args.common.geometry(name, args.common.size, &settings)?;
+    let job = job(&settings, &geometry, settings.options);
+    let start = std::time::Instant::now();
+    let direct = job.direct();
+    let direct_time = start.elapsed();
+    let frames = match args.method {
+        MethodChoice::Direct => {
+            println!("{} polygons, both views directly in {direct_time:.1?}", geometry.polygons.len());
+            direct
+        }
+        method => {
+            let start = std::time::Instant::now();
+            let (frames, counts) = job.derived(method == MethodChoice::Minimal);
+            println!("{} in {:.1?}", drawn_line(&counts), start.elapsed());
+            compare(&frames.eyes, &direct);
+            frames.eyes
+        }
+    };
+    std::fs::create_dir_all(&args.out)
+        .map_err(|source| WriteError { file: args.out.clone(), source })?;
+    let pictures = [&frames[0], &frames[1]].map(picture);
+    for eye in Eye::BOTH {
+        let frame = &frames[eye as usize];
+        save(&args.out, &format!("{}.png", eye.name()), &pictures[eye as usize])?;
+        let id = |x: u32, y: u32| {
+            Some(frame.id[(y * frame.width + x) as usize]).filter(|&id| id != NO_ID)
+        };
+        let ids = id_picture(frame.width, frame.height, id);
+        save(&args.out, &format!("{}_ids.png", eye.name()), &ids)?;
+    }
+    for composite in &args.stereo {
+        let file = args.out.join(format!("{}.png", composite.name()));
+        composite.write(&file, &Views { left: &pictures[0], right: &pictures[1] })?;
+        println!("image {}", file.display());
+    }
+    Ok(OK)
+}
+
+fn save(folder: &Path, name: &str, picture: &image::RgbImage) -> Result<(), Failure> {
+    let file = folder.join(name);
+    write_png(&file, picture)?;
+    println!("image {}", file.display());
+    Ok(())
+}
+
+fn picture(frame: &Frame) -> image::RgbImage {
+    let colours: Vec<Rgba> = frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
+    colour_picture(frame.width, frame.height, &colours)
+}
+
+/// Says how far a derived pair is from direct rendering.
+fn compare(frames: &[Frame; 2], direct: &[Frame; 2]) {
+    for eye in Eye::BOTH {
+        let (frame, direct) = (&frames[eye as usize], &direct[eye as usize]);
+        if (frame.width, frame.height) != (direct.width, direct.height) {
+            println!("{} view: arranged for its display, not compared with direct rendering", eye.name());
+            continue;
+        }
+        let pixels = direct.colour.len();
+        let differ = |f: &dyn Fn(usize) -> bool| (0..pixels).filter(|&n| f(n)).count();
+        let colour = differ(&|n| frame.colour[n] != direct.colour[n]);
+        let id = differ(&|n| frame.id[n] != direct.id[n]);
+        let gaps = differ(&|n| frame.id[n] == NO_ID && direct.id[n] != NO_ID);
+        let quality = match psnr(&picture(frame), &picture(direct)) {
+            Some(psnr) if psnr.is_finite() => format!("{psnr:.1} dB"),
+            _ => "identical".into(),
+        };
+        println!(
+            "{} view against direct rendering: {quality}, {colour} of {pixels} colours, {id} ids differ, {gaps} gaps",
+            eye.name()
+        );
+    }
+}

@@ -1,0 +1,85 @@
+//! `wheatstone waves`.
+
+use super::*;
+use crate::regression::{record_waves, Focus};
+use wheatstone_golden::formats::Eye;
+
+#[derive(Debug, Args)]
+pub(super) struct WavesArgs {
+    /// Unit or system (see `wheatstone list`)
+    #[arg(value_name = "TARGET", value_parser = parse_target)]
+    target: Target,
+    /// Waveforms around the clock on which this pixel of a scene leaves a system, or on which a
+    /// unit works on it
+    #[arg(long, value_name = "EYE,X,Y", value_parser = parse_pixel, conflicts_with = "polygon")]
+    pixel: Option<(Eye, u32, u32)>,
+    /// Waveforms of this polygon of a scene
+    #[arg(long, value_name = "N")]
+    polygon: Option<u32>,
+    /// Folder for the files [default: target/wheatstone/waves]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Open the view in GTKWave
+    #[arg(long)]
+    open: bool,
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    stimulus: Stimulus,
+}
+
+fn parse_pixel(text: &str) -> Result<(Eye, u32, u32), String> {
+    let mut parts = text.split(',');
+    let eye = match parts.next() {
+        Some("left") => Some(Eye::Left),
+        Some("right") => Some(Eye::Right),
+        _ => None,
+    };
+    let mut number = || parts.next().and_then(|n| n.trim().parse::<u32>().ok());
+    match (eye, number(), number()) {
+        (Some(eye), Some(x), Some(y)) => Ok((eye, x, y)),
+        _ => Err("expected EYE,X,Y, for example right,320,200".into()),
+    }
+}
+
+pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
+    let settings = args.common.settings()?;
+    let focus = match (args.pixel, args.polygon) {
+        (Some((eye, x, y)), _) => Focus::Pixel(eye, x, y),
+        (None, Some(id)) => Focus::Polygon(id),
+        (None, None) => Focus::Start,
+    };
+    let needs_scene = focus != Focus::Start || args.common.scene.is_some();
+    let name = args.common.scene.as_deref().unwrap_or("teapot");
+    let geometry = if needs_scene {
+        Some(args.common.geometry(name, args.common.size, &settings)?)
+    } else {
+        None
+    };
+    let job = geometry.as_ref().map(|geometry| job(&settings, geometry, settings.options));
+    let out = args.out.clone().unwrap_or_else(|| output_folder("waves"));
+    std::fs::create_dir_all(&out).map_err(|source| WriteError { file: out.clone(), source })?;
+    let rtl = args.stimulus.rtl()?;
+    let builder = builder(false)?;
+    let waves = record_waves(args.target, &settings, job.as_ref(), focus, args.stimulus.seed, &rtl, &builder, &out)?;
+    let Some(waves) = waves else {
+        return Err(Failure::Input(match focus {
+            Focus::Pixel(eye, x, y) => format!("--pixel {},{x},{y}: {name} draws nothing there", eye.name()),
+            _ => format!("--polygon: {name} does not draw this polygon"),
+        }));
+    };
+    println!("{}: cycles {} to {}", waves.file.display(), waves.cycles.start(), waves.cycles.end());
+    if let Some(marker) = waves.marker {
+        println!("marker on cycle {marker}");
+    }
+    let view = waves.file.with_extension("gtkw");
+    println!("open with:  gtkwave {}", view.display());
+    if args.open {
+        let gtkwave = crate::tools::GTKWAVE.find_in(&std::env::var_os("PATH").unwrap_or_default())?;
+        std::process::Command::new(&gtkwave.program)
+            .arg(&view)
+            .spawn()
+            .map_err(|source| WriteError { file: gtkwave.program.clone(), source })?;
+    }
+    Ok(OK)
+}

@@ -1,0 +1,410 @@
+//! The regression: which cases run on which target, side by side, and what came of them.
+//!
+//! Rules: a case follows from target, configuration, seed and number of beats alone. Random beats
+//! come in batches; batch n of seed s is batch 0 of seed s + n, with stall patterns chosen by the same
+//! number, so that one failing batch can be repeated by itself.
+
+mod failure;
+mod report;
+mod run;
+mod waves;
+
+pub use failure::{Failure, Location};
+pub use report::{drawn_line, json, junit, table};
+pub use waves::{record_waves, scene_head, Focus, Waves as WaveFile};
+pub use run::{model_probes, run_case, run_scene, MemoryFault, Ran, SceneRan, Setting};
+
+use crate::cases::{self, Case};
+use crate::settings::Settings;
+use crate::{
+    BuildError, Builder, JobError, Library, LoadError, Pattern, Spec, Stalls, TraceError,
+};
+use rayon::prelude::*;
+use std::path::PathBuf;
+use std::sync::{Mutex, OnceLock};
+use std::time::{Duration, Instant};
+use thiserror::Error;
+use wheatstone_golden::formats::Eye;
+use wheatstone_golden::frame::Frames;
+use wheatstone_golden::primary::Counts as Drawn;
+use wheatstone_golden::stereo::Job as Scene;
+use wheatstone_golden::targets::Target;
+
+/// Random beats of a unit in the default regression.
+pub const UNIT_BEATS: u64 = 1_000_000;
+/// Random beats of a system in the default regression.
+pub const SYSTEM_BEATS: u64 = 200_000;
+/// Random beats of one batch: with these, a unit's default regression crosses all stall patterns.
+const BATCH: u64 = 28_000;
+/// Beats of a system's batch, which has stalls of its own too.
+const SYSTEM_BATCH: u64 = 5_600;
+/// Latency of the memory when throughput is measured, in clocks.
+pub const MEASURED_LATENCY: u64 = 4;
+
+/// The regression could not run.
+#[derive(Debug, Error)]
+pub enum RegressionError {
+    /// A model could not be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A model could not be loaded.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// A case does not fit its model.
+    #[error(transparent)]
+    Job(#[from] JobError),
+    /// A waveform could not be written.
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    /// A view of a waveform could not be written.
+    #[error(transparent)]
+    Wave(#[from] crate::waves::WaveError),
+    /// A file could not be written.
+    #[error("{path}: {source}")]
+    File {
+        /// Which one.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The worker threads could not be started.
+    #[error("cannot start worker threads: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// When waveforms are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Waves {
+    /// A case that failed is run again with waveforms around the difference.
+    #[default]
+    OnFailure,
+    /// Waveforms of every target's first case.
+    Always,
+    /// None.
+    Never,
+}
+
+/// A named scene, ready to draw.
+pub struct NamedScene<'a> {
+    /// Name or file, as on the command line.
+    pub name: String,
+    /// What to draw.
+    pub job: Scene<'a>,
+}
+
+/// What to run.
+pub struct Plan<'a> {
+    /// Units and systems.
+    pub targets: Vec<Target>,
+    /// Build parameters and choices.
+    pub settings: Settings,
+    /// The words of the command line that chose them, for the command that repeats a case.
+    pub words: Vec<String>,
+    /// Scenes for the systems.
+    pub scenes: Vec<NamedScene<'a>>,
+    /// Leave out directed and random cases of systems.
+    pub scenes_only: bool,
+    /// Seed.
+    pub seed: u64,
+    /// Random beats; the default differs between units and systems.
+    pub beats: Option<u64>,
+    /// Worker threads.
+    pub jobs: usize,
+    /// Waveforms.
+    pub waves: Waves,
+    /// Folder of the Verilog.
+    pub rtl: PathBuf,
+    /// Folder for waveforms.
+    pub out: PathBuf,
+}
+
+/// One result.
+pub struct Entry {
+    /// Unit or system.
+    pub target: Target,
+    /// What was run.
+    pub name: String,
+    /// Runs with different stalls that this entry sums up.
+    pub runs: u64,
+    /// Beats offered to the target's main input.
+    pub beats: u64,
+    /// Output beats compared, those of units inside a system included.
+    pub compared: u64,
+    /// Clocks simulated.
+    pub clocks: u64,
+    /// Time in the simulation, comparison included.
+    pub time: Duration,
+    /// What a scene says besides.
+    pub scene: Option<SceneEntry>,
+    /// The first difference.
+    pub failure: Option<Failure>,
+    /// Waveforms written on request.
+    pub waves: Option<PathBuf>,
+}
+
+/// What there is to say of a scene.
+pub struct SceneEntry {
+    /// How its polygons were drawn.
+    pub drawn: Drawn,
+    /// The frame buffers that the Verilog filled.
+    pub frames: Frames,
+    /// Pixels of both frame buffers compared.
+    pub pixels: u64,
+    /// Pixels written for each eye.
+    pub written: [u64; 2],
+    /// Clocks from the first beat to the last, without stalls from outside.
+    pub clocks: u64,
+    /// Share of those on which a beat was taken.
+    pub acceptance: f64,
+}
+
+/// What the regression tells while it runs.
+pub enum Event<'a> {
+    /// A model is being built, or was.
+    Build(crate::Progress<'a>),
+    /// So many cases there are.
+    Planned(usize),
+    /// A case begins.
+    Begin(Target, &'a str),
+    /// A case has ended.
+    End(&'a Entry),
+}
+
+/// A piece of work: what one entry reports.
+enum Work<'a> {
+    Directed(Target, usize),
+    Random(Target),
+    Scene(Target, &'a NamedScene<'a>),
+}
+
+/// Models of the targets, built when first needed.
+struct Models<'a> {
+    builder: &'a Builder,
+    plan: &'a Plan<'a>,
+    libraries: Vec<(Target, OnceLock<Library>, Mutex<()>)>,
+}
+
+impl Models<'_> {
+    fn get(&self, target: Target) -> Result<Library, BuildError> {
+        let config = &self.plan.settings.config;
+        let build = || {
+            let probes = model_probes(target, config);
+            let interface = target.interface(config);
+            self.builder.build(&Spec { interface: &interface, rtl: &self.plan.rtl, probes: &probes })
+        };
+        let Some((_, cell, lock)) = self.libraries.iter().find(|(t, ..)| *t == target) else {
+            return build();
+        };
+        let _guard = lock.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if let Some(library) = cell.get() {
+            return Ok(library.clone());
+        }
+        let library = build()?;
+        Ok(cell.get_or_init(|| library).clone())
+    }
+}
+
+/// The stalls of a seed: each seed another pair, 36 seeds all of them.
+pub fn stalls_of(seed: u64) -> Stalls {
+    let n = (seed % 36) as usize;
+    let (idle, back_pressure) = (Pattern::ALL[n / 6], Pattern::ALL[n % 6]);
+    Stalls { idle, back_pressure, seed }
+}
+
+/// Runs a plan; entries come in the order of the targets.
+pub fn run(
+    plan: &Plan,
+    builder: &Builder,
+    tell: &(dyn Fn(Event) + Sync),
+) -> Result<Vec<Entry>, RegressionError> {
+    let libraries = plan.targets.iter().map(|&t| (t, OnceLock::new(), Mutex::new(()))).collect();
+    let models = Models { builder, plan, libraries };
+    let work = list_work(plan);
+    tell(Event::Planned(work.len()));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(plan.jobs).build()?;
+    // The longest work first, so that it does not end up alone at the end.
+    let mut order: Vec<usize> = (0..work.len()).collect();
+    order.sort_by_key(|&n| match work[n] {
+        Work::Scene(..) => 0,
+        Work::Random(target) if target.is_system() => 1,
+        Work::Random(_) => 2,
+        Work::Directed(..) => 3,
+    });
+    let mut entries: Vec<(usize, Entry)> = pool.install(|| {
+        let one = |&n: &usize| do_work(plan, &models, &work[n], tell).map(|entry| (n, entry));
+        order.par_iter().with_max_len(1).map(one).collect::<Result<Vec<_>, RegressionError>>()
+    })?;
+    entries.sort_by_key(|(n, _)| *n);
+    Ok(entries.into_iter().map(|(_, entry)| entry).collect())
+}
+
+fn list_work<'a>(plan: &'a Plan<'a>) -> Vec<Work<'a>> {
+    let mut work = Vec::new();
+    for &target in &plan.targets {
+        if !(plan.scenes_only && target.is_system()) {
+            let directed = cases::directed(target, &plan.settings.config).len();
+            work.extend((0..directed).map(|n| Work::Directed(target, n)));
+            work.push(Work::Random(target));
+        }
+        if target.is_system() {
+            work.extend(plan.scenes.iter().map(|scene| Work::Scene(target, scene)));
+        }
+    }
+    work
+}
+
+fn do_work(
+    plan: &Plan,
+    models: &Models,
+    work: &Work,
+    tell: &(dyn Fn(Event) + Sync),
+) -> Result<Entry, RegressionError> {
+    let entry = match work {
+        Work::Directed(target, n) => {
+            let case = cases::directed(*target, &plan.settings.config).swap_remove(*n);
+            tell(Event::Begin(*target, &case.name));
+            directed(plan, &models.get(*target)?, case)?
+        }
+        Work::Random(target) => {
+            tell(Event::Begin(*target, "random"));
+            random(plan, &models.get(*target)?, *target)?
+        }
+        Work::Scene(target, scene) => {
+            tell(Event::Begin(*target, &scene.name));
+            draw(plan, &models.get(*target)?, *target, scene)?
+        }
+    };
+    tell(Event::End(&entry));
+    Ok(entry)
+}
+
+impl Entry {
+    fn new(target: Target, name: &str) -> Entry {
+        Entry {
+            target,
+            name: name.into(),
+            runs: 0,
+            beats: 0,
+            compared: 0,
+            clocks: 0,
+            time: Duration::ZERO,
+            scene: None,
+            failure: None,
+            waves: None,
+        }
+    }
+
+    /// Whether everything was compared and equal.
+    pub fn passed(&self) -> bool {
+        self.failure.is_none()
+    }
+
+    /// Counts a run.
+    fn add(&mut self, ran: &Ran, beats: u64, time: Duration) {
+        self.runs += 1;
+        self.beats += beats;
+        self.compared += ran.counts.compared() + ran.counts.probed;
+        self.clocks += ran.counts.simulated;
+        self.time += time;
+    }
+}
+
+/// Runs a case and, if it fails, once more with waveforms.
+fn try_case(
+    plan: &Plan,
+    entry: &mut Entry,
+    library: &Library,
+    case: &Case,
+    seed: u64,
+    stalls: Stalls,
+) -> Result<(), RegressionError> {
+    let mut setting =
+        Setting { library, seed, stalls, latency: plan.settings.latency, trace: None };
+    if plan.waves == Waves::Always && entry.runs == 0 {
+        setting.trace = Some(failure::window(plan, case.target, seed, 0..=2_000)?);
+        entry.waves = setting.trace.as_ref().map(|t| t.path.clone());
+    }
+    let start = Instant::now();
+    let ran = run_case(&setting, case)?;
+    entry.add(&ran, case.beats(), start.elapsed());
+    if !ran.passed() {
+        let again = |window| {
+            setting.trace = Some(window);
+            run_case(&setting, case).map(drop)
+        };
+        entry.failure = Some(Failure::new(plan, case.target, &case.name, seed, stalls, ran, library, again)?);
+    } else if let Some(trace) = &setting.trace {
+        failure::view(library, trace, None)?;
+    }
+    Ok(())
+}
+
+fn directed(plan: &Plan, library: &Library, case: Case) -> Result<Entry, RegressionError> {
+    let mut entry = Entry::new(case.target, &case.name);
+    let crossed = [
+        Stalls::NONE,
+        Stalls { idle: Pattern::Random50, back_pressure: Pattern::None, seed: plan.seed },
+        Stalls { idle: Pattern::None, back_pressure: Pattern::Bursts, seed: plan.seed },
+        Stalls { idle: Pattern::Gaps, back_pressure: Pattern::Random50, seed: plan.seed },
+    ];
+    for stalls in crossed {
+        try_case(plan, &mut entry, library, &case, plan.seed, stalls)?;
+        if !entry.passed() {
+            break;
+        }
+    }
+    Ok(entry)
+}
+
+fn random(plan: &Plan, library: &Library, target: Target) -> Result<Entry, RegressionError> {
+    let mut entry = Entry::new(target, "random");
+    let (default, batch) =
+        if target.is_system() { (SYSTEM_BEATS, SYSTEM_BATCH) } else { (UNIT_BEATS, BATCH) };
+    let beats = plan.beats.unwrap_or(default);
+    let mut seed = plan.seed;
+    while entry.beats < beats && entry.passed() {
+        let size = batch.min(beats - entry.beats);
+        let case = cases::random(target, &plan.settings.config, seed, size as usize);
+        try_case(plan, &mut entry, library, &case, seed, stalls_of(seed))?;
+        seed = seed.wrapping_add(1);
+    }
+    Ok(entry)
+}
+
+/// Draws a scene twice: without stalls and with a steady memory, where throughput is measured, and
+/// with stalls and a memory of random latency.
+fn draw(
+    plan: &Plan,
+    library: &Library,
+    target: Target,
+    scene: &NamedScene,
+) -> Result<Entry, RegressionError> {
+    let mut entry = Entry::new(target, &scene.name);
+    let steady = Some(plan.settings.latency.unwrap_or(MEASURED_LATENCY));
+    let stalled = stalls_of(plan.seed.wrapping_mul(7).wrapping_add(8));
+    for (stalls, latency) in [(Stalls::NONE, steady), (stalled, plan.settings.latency)] {
+        let mut setting = Setting { library, seed: plan.seed, stalls, latency, trace: None };
+        let start = Instant::now();
+        let SceneRan { ran, drawn, frames } = run_scene(&setting, target, &scene.job, |_| ())?;
+        entry.add(&ran, drawn.beats(), start.elapsed());
+        if !ran.passed() {
+            let again = |window| {
+                setting.trace = Some(window);
+                run_scene(&setting, target, &scene.job, |_| ()).map(drop)
+            };
+            let failure =
+                Failure::new(plan, target, &scene.name, plan.seed, stalls, ran, library, again)?;
+            entry.failure = Some(failure);
+            break;
+        }
+        if entry.scene.is_none() {
+            let beat = ran.counts.stream("beat");
+            let clocks = beat.map_or(0, |s| s.active);
+            let pixels = Eye::BOTH.iter().map(|&e| frames.eyes[e as usize].colour.len() as u64).sum();
+            let acceptance = beat.map_or(1.0, |s| s.throughput());
+            let written = frames.written;
+            entry.scene = Some(SceneEntry { drawn, frames, pixels, written, clocks, acceptance });
+        }
+    }
+    Ok(entry)
+}

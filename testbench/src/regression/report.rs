@@ -1,0 +1,189 @@
+//! What a regression says at the end: a table, JSON, JUnit XML.
+
+use super::{Entry, Failure, SceneEntry};
+use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
+use comfy_table::{Cell, CellAlignment, Table};
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use wheatstone_golden::formats::Eye;
+use wheatstone_golden::primary::Counts as Drawn;
+
+/// A number with its thousands set off.
+fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// The table of targets, cases, what was compared, and mismatches.
+pub fn table(entries: &[Entry]) -> String {
+    let mut table = Table::new();
+    table.load_preset(UTF8_HORIZONTAL_ONLY);
+    table.set_header(["target", "case", "runs", "beats", "compared", "pixels", "Mclocks/s", "mismatches"]);
+    for n in 2..8 {
+        if let Some(column) = table.column_mut(n) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    for entry in entries {
+        let rate = entry.clocks as f64 / entry.time.as_secs_f64().max(1e-9) / 1e6;
+        table.add_row([
+            Cell::new(entry.target.name()),
+            Cell::new(&entry.name),
+            Cell::new(entry.runs),
+            Cell::new(grouped(entry.beats)),
+            Cell::new(grouped(entry.compared)),
+            Cell::new(entry.scene.as_ref().map_or(String::new(), |s| grouped(s.pixels))),
+            Cell::new(format!("{rate:.2}")),
+            Cell::new(u8::from(!entry.passed())),
+        ]);
+    }
+    let mut text = format!("{table}\n");
+    for entry in entries {
+        if let Some(scene) = &entry.scene {
+            text += &format!("{} {}: {}\n", entry.target.name(), entry.name, scene_line(scene));
+        }
+    }
+    let failed = entries.iter().filter(|e| !e.passed()).count();
+    let compared: u64 = entries.iter().map(|e| e.compared).sum();
+    let pixels: u64 = entries.iter().filter_map(|e| e.scene.as_ref()).map(|s| s.pixels).sum();
+    text + &format!(
+        "{} cases, {} beats and {} pixels compared, mismatches {failed}\n",
+        entries.len(),
+        grouped(compared),
+        grouped(pixels)
+    )
+}
+
+/// How a scene went, in a line.
+fn scene_line(scene: &SceneEntry) -> String {
+    format!(
+        "{}; {} clocks, beats on {:.2} % of them; pixels left {}, right {}",
+        drawn_line(&scene.drawn),
+        grouped(scene.clocks),
+        100.0 * scene.acceptance,
+        grouped(scene.written[0]),
+        grouped(scene.written[1]),
+    )
+}
+
+/// How polygons were drawn, in a line.
+pub fn drawn_line(drawn: &Drawn) -> String {
+    let mut parts = vec![format!("{} polygons", grouped(drawn.polygons)), format!("{} derived", grouped(drawn.derived))];
+    let reasons: Vec<String> =
+        drawn.monocular.iter().map(|(reason, n)| format!("{} {}", grouped(*n), reason.name())).collect();
+    let monocular: u64 = drawn.monocular.values().sum();
+    let why = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
+    parts.push(format!("{} monocular{why}", grouped(monocular)));
+    parts.push(format!("{} covering nothing", grouped(drawn.nothing)));
+    parts.push(format!("{} beats", grouped(drawn.beats())));
+    parts.join(", ")
+}
+
+#[derive(Serialize)]
+struct JsonEntry<'a> {
+    target: &'static str,
+    case: &'a str,
+    runs: u64,
+    beats: u64,
+    compared: u64,
+    clocks: u64,
+    seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scene: Option<JsonScene>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<&'a Failure>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    waves: Option<&'a PathBuf>,
+}
+
+#[derive(Serialize)]
+struct JsonScene {
+    polygons: u64,
+    derived: u64,
+    monocular: BTreeMap<&'static str, u64>,
+    nothing: u64,
+    beats: u64,
+    clocks: u64,
+    acceptance: f64,
+    pixels_compared: u64,
+    pixels_written: BTreeMap<&'static str, u64>,
+}
+
+/// The regression as JSON.
+pub fn json(entries: &[Entry], command: &str) -> String {
+    let scene = |s: &SceneEntry| JsonScene {
+        polygons: s.drawn.polygons,
+        derived: s.drawn.derived,
+        monocular: s.drawn.monocular.iter().map(|(r, n)| (r.name(), *n)).collect(),
+        nothing: s.drawn.nothing,
+        beats: s.drawn.beats(),
+        clocks: s.clocks,
+        acceptance: s.acceptance,
+        pixels_compared: s.pixels,
+        pixels_written: Eye::BOTH.iter().map(|e| (e.name(), s.written[*e as usize])).collect(),
+    };
+    let entry = |e: &'_ Entry| -> serde_json::Value {
+        let entry = JsonEntry {
+            target: e.target.name(),
+            case: &e.name,
+            runs: e.runs,
+            beats: e.beats,
+            compared: e.compared,
+            clocks: e.clocks,
+            seconds: e.time.as_secs_f64(),
+            scene: e.scene.as_ref().map(scene),
+            failure: e.failure.as_ref(),
+            waves: e.waves.as_ref(),
+        };
+        serde_json::to_value(entry).unwrap_or_default()
+    };
+    let value = serde_json::json!({
+        "format": "wheatstone-cosim/1",
+        "version": env!("CARGO_PKG_VERSION"),
+        "command": command,
+        "mismatches": entries.iter().filter(|e| !e.passed()).count(),
+        "entries": entries.iter().map(entry).collect::<Vec<_>>(),
+    });
+    format!("{value:#}\n")
+}
+
+/// The regression as JUnit XML: a suite a target, a test a case.
+pub fn junit(entries: &[Entry]) -> Result<String, quick_junit::SerializeError> {
+    let mut report = Report::new("wheatstone cosim");
+    let mut suites: Vec<TestSuite> = Vec::new();
+    for entry in entries {
+        let status = match &entry.failure {
+            None => TestCaseStatus::success(),
+            Some(failure) => {
+                let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+                status.set_message(failure.what.clone()).set_type("mismatch");
+                status.set_description(failure.to_string());
+                status
+            }
+        };
+        let mut case = TestCase::new(entry.name.clone(), status);
+        case.set_classname(entry.target.name()).set_time(entry.time);
+        case.set_system_out(format!("{} beats, {} compared", entry.beats, entry.compared));
+        match suites.last_mut().filter(|s| s.name.as_str() == entry.target.name()) {
+            Some(suite) => {
+                suite.add_test_case(case);
+            }
+            None => {
+                let mut suite = TestSuite::new(entry.target.name());
+                suite.add_test_case(case);
+                suites.push(suite);
+            }
+        }
+    }
+    report.add_test_suites(suites);
+    report.to_string()
+}
