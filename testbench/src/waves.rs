@@ -14,6 +14,17 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use wheatstone_golden::interface::{Direction, Field, Interface, Kind, Stream};
 
+/// What a view shows.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// The module that was simulated.
+    pub interface: &'a Interface,
+    /// Units inside it, each with the streams to be shown.
+    pub units: &'a [Probe],
+    /// A cycle to be marked, with a name for the marker.
+    pub marker: Option<(u64, &'a str)>,
+}
+
 /// The files written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ViewFiles {
@@ -65,17 +76,11 @@ struct Group {
     lines: Vec<Line>,
 }
 
-/// Writes the views `<dump>.gtkw` and `<dump>.sucl` beside a dump of a module: its own streams,
-/// then those of units inside it, with a marker on a cycle.
-pub fn write_views(
-    dump: &Path,
-    interface: &Interface,
-    units: &[Probe],
-    marker: Option<u64>,
-) -> Result<ViewFiles, WaveError> {
+/// Writes the views `<dump>.gtkw` and `<dump>.sucl` beside a dump.
+pub fn write_views(dump: &Path, view: &View<'_>) -> Result<ViewFiles, WaveError> {
     let names = names(dump)?;
     let mut missing = Vec::new();
-    let groups = groups(interface, units, &names, &mut missing);
+    let groups = groups(view, &names, &mut missing);
     let dump = std::path::absolute(dump).unwrap_or_else(|_| dump.to_owned());
     let files = ViewFiles {
         gtkwave: dump.with_extension("gtkw"),
@@ -84,8 +89,8 @@ pub fn write_views(
         missing,
     };
     let filters = write_filters(&dump, &groups)?;
-    write(&files.gtkwave, &gtkwave(&dump, &files.gtkwave, marker, &groups, &filters))?;
-    write(&files.surfer, &surfer(&dump, marker, &groups))?;
+    write(&files.gtkwave, &gtkwave(&dump, &files.gtkwave, view, &groups, &filters))?;
+    write(&files.surfer, &surfer(&dump, view, &groups))?;
     Ok(files)
 }
 
@@ -115,12 +120,11 @@ fn names(dump: &Path) -> Result<BTreeMap<String, String>, WaveError> {
 
 /// The groups of a view: clock and statics, the module's streams, its flags, then the units.
 fn groups(
-    interface: &Interface,
-    units: &[Probe],
+    view: &View<'_>,
     names: &BTreeMap<String, String>,
     missing: &mut Vec<String>,
 ) -> Vec<Group> {
-    let top = format!("TOP.{}", interface.module);
+    let top = format!("TOP.{}", view.interface.module);
     let mut group = |title: String, scope: &str, signals: Vec<(String, Kind, u32)>| {
         let mut lines = Vec::new();
         for (name, kind, bits) in signals {
@@ -136,13 +140,13 @@ fn groups(
         |field: &Field, suffix: &str| (format!("{}_{suffix}", field.name), field.kind, field.bits);
     let mut first: Vec<_> =
         ["clk_i", "rst_i"].map(|name| (name.to_owned(), Kind::Flag, 1)).to_vec();
-    first.extend(interface.statics.iter().map(|f| field(f, "i")));
-    first.extend(interface.flags.iter().map(|f| field(f, "o")));
-    let mut groups = vec![group(interface.module.to_owned(), &top, first)];
-    for stream in &interface.streams {
+    first.extend(view.interface.statics.iter().map(|f| field(f, "i")));
+    first.extend(view.interface.flags.iter().map(|f| field(f, "o")));
+    let mut groups = vec![group(view.interface.module.to_owned(), &top, first)];
+    for stream in &view.interface.streams {
         groups.push(group(stream.name.to_owned(), &top, signals(stream)));
     }
-    for unit in units {
+    for unit in view.units {
         let scope = format!("{top}.{}", unit.instance);
         for stream in &unit.streams {
             let title = format!("{}.{}", unit.instance, stream.name);
@@ -195,19 +199,22 @@ type Codes = (&'static [&'static str], u32);
 fn gtkwave(
     dump: &Path,
     save: &Path,
-    marker: Option<u64>,
+    view: &View<'_>,
     groups: &[Group],
     filters: &BTreeMap<Codes, PathBuf>,
 ) -> String {
     let mut text = String::new();
+    let _ = writeln!(text, "[*] {}, written by wheatstone", view.interface.module);
     let _ = writeln!(text, "[dumpfile] \"{}\"\n[savefile] \"{}\"", dump.display(), save.display());
+    let marker = view.marker.map(|(cycle, name)| (TraceWindow::time(cycle), name));
+    let (time, named) = marker.map_or((0, "-1".to_owned()), |(time, _)| (time, time.to_string()));
     // About 15 clocks across the window, the marked one at two thirds.
-    let start = marker.map_or(0, |cycle| TraceWindow::time(cycle).saturating_sub(105));
-    let _ = writeln!(text, "[timestart] {start}\n[size] 1600 1000\n[pos] -1 -1");
-    let at = marker.map_or("-1".to_owned(), |cycle| TraceWindow::time(cycle).to_string());
-    let _ = writeln!(text, "*-4.7 {at} {at}{}", " -1".repeat(25));
-    if let Some(cycle) = marker {
-        let _ = writeln!(text, "[markername_long] A cycle {cycle}");
+    let _ =
+        writeln!(text, "[timestart] {}\n[size] 1600 1000\n[pos] -1 -1", time.saturating_sub(105));
+    let main = if marker.is_some() { time.to_string() } else { "-1".to_owned() };
+    let _ = writeln!(text, "*-4.7 {main} {named}{}", " -1".repeat(25));
+    if let Some((_, name)) = marker {
+        let _ = writeln!(text, "[markername_long] A {name}");
     }
     let _ = writeln!(text, "[treeopen] TOP.\n[sst_expanded] 0\n[signals_width] 360");
     for group in groups {
@@ -233,7 +240,7 @@ fn gtkwave(
     text
 }
 
-fn surfer(dump: &Path, marker: Option<u64>, groups: &[Group]) -> String {
+fn surfer(dump: &Path, view: &View<'_>, groups: &[Group]) -> String {
     let mut text = format!("load_file {}\n", dump.display());
     let mut item = 0;
     for group in groups {
@@ -255,9 +262,10 @@ fn surfer(dump: &Path, marker: Option<u64>, groups: &[Group]) -> String {
         }
     }
     text.push_str("item_unfocus\n");
-    if let Some(cycle) = marker {
+    if let Some((cycle, name)) = view.marker {
         let time = TraceWindow::time(cycle);
-        let _ = writeln!(text, "cursor_set {time}\nmarker_set cycle_{cycle} {time}\ngoto_cursor");
+        let name = name.replace(' ', "_");
+        let _ = writeln!(text, "cursor_set {time}\nmarker_set {name} {time}\ngoto_cursor");
     }
     text
 }

@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use std::fs;
 use wheatstone_golden::interface::Interface;
-use wheatstone_testbench::waves::{write_views, ViewFiles, WaveError};
+use wheatstone_testbench::waves::{write_views, View, ViewFiles, WaveError};
 use wheatstone_testbench::{Bench, Job, Probe, TraceWindow};
 
 /// Runs a module with a trace of cycles 90 to 130 and writes the views.
@@ -25,7 +25,8 @@ fn traced(folder: &std::path::Path, interface: &Interface, units: &[Probe]) -> V
         wheatstone_testbench::Outcome::Mismatch(mismatch) => Some(mismatch.cycle),
         _ => None,
     };
-    write_views(&path, interface, units, marker).unwrap()
+    let marker = marker.map(|cycle| (cycle, "first mismatch"));
+    write_views(&path, &View { interface, units, marker }).unwrap()
 }
 
 #[test]
@@ -63,7 +64,7 @@ fn views_group_the_streams_and_mark_the_mismatch() {
         "@40000420\n[fpshift_count] 14\nTOP.sam_chain.term_a_i[24:0]\n",
         "@200\n-g_second.u_adder.sum\n@28\nTOP.sam_chain.g_second.u_adder.sum_valid_o\n",
         "TOP.sam_chain.u_first.sum_rgba_o[31:0]\n",
-        "[markername_long] A cycle 102\n",
+        "[markername_long] A first mismatch\n",
         "*-4.7 1025 1025 -1",
     ] {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
@@ -71,7 +72,8 @@ fn views_group_the_streams_and_mark_the_mismatch() {
     let filter = text.lines().find_map(|line| line.strip_prefix("^1 ")).unwrap();
     assert!(fs::read_to_string(filter).unwrap().starts_with("00 ADD\n01 SUBTRACT\n"));
     let text = fs::read_to_string(&files.surfer).unwrap();
-    for part in ["divider_add u_first.term\n", "cursor_set 1025\nmarker_set cycle_102 1025\n"] {
+    for part in ["divider_add u_first.term\n", "cursor_set 1025\nmarker_set first_mismatch 1025\n"]
+    {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
     }
 }
@@ -82,19 +84,14 @@ fn an_unfinished_or_empty_dump_is_refused() {
     let library = model(&adder(0), &[]);
     let path = folder.path().join("x.fst");
     let interface = adder(0);
-    assert!(matches!(write_views(&path, &interface, &[], None), Err(WaveError::Dump { .. })));
+    let view = View { interface: &interface, units: &[], marker: None };
+    assert!(matches!(write_views(&path, &view), Err(WaveError::Dump { .. })));
     let mut bench = Bench::new(&library, 1).unwrap();
     let window = TraceWindow { path: path.clone(), from_cycle: 90, to_cycle: 130 };
     bench.trace(&window).unwrap();
-    assert!(
-        matches!(write_views(&path, &interface, &[], None), Err(WaveError::Empty(_))),
-        "not closed"
-    );
+    assert!(matches!(write_views(&path, &view), Err(WaveError::Empty(_))), "not closed");
     bench.close_trace();
-    assert!(
-        matches!(write_views(&path, &interface, &[], None), Err(WaveError::Empty(_))),
-        "never reached"
-    );
+    assert!(matches!(write_views(&path, &view), Err(WaveError::Empty(_))), "never reached");
     let nowhere = TraceWindow { path: folder.path().join("no/x.fst"), ..window };
     let error = bench.trace(&nowhere).unwrap_err().to_string();
     assert!(error.contains("cannot write the waveform"), "{error}");

@@ -116,7 +116,7 @@ impl Failure {
             if let Some(cycle) = failure.cycle {
                 let window = window(plan, target, seed, cycle.saturating_sub(BEFORE)..=cycle + AFTER)?;
                 again(window.clone())?;
-                view(library, &window, Some(cycle))?;
+                view(library, &window, Some(cycle), "first mismatch")?;
                 failure.waves = Some(window.path);
             }
         }
@@ -235,8 +235,11 @@ pub(super) fn view(
     library: &Library,
     window: &TraceWindow,
     marker: Option<u64>,
+    name: &str,
 ) -> Result<(), RegressionError> {
-    waves::write_views(&window.path, library.interface(), library.probes(), marker)?;
+    let (interface, units) = (library.interface(), library.probes());
+    let marker = marker.map(|cycle| (cycle, name));
+    waves::write_views(&window.path, &waves::View { interface, units, marker })?;
     Ok(())
 }
 

@@ -56,7 +56,7 @@ pub enum RegressionError {
     /// A waveform could not be written.
     #[error(transparent)]
     Trace(#[from] TraceError),
-    /// A view of a waveform could not be written.
+    /// The view of a waveform could not be written.
     #[error(transparent)]
     Wave(#[from] crate::waves::WaveError),
     /// A file could not be written.
@@ -334,7 +334,7 @@ fn try_case(
         };
         entry.failure = Some(Failure::new(plan, case.target, &case.name, seed, stalls, ran, library, again)?);
     } else if let Some(trace) = &setting.trace {
-        failure::view(library, trace, None)?;
+        failure::view(library, trace, None, "")?;
     }
     Ok(())
 }

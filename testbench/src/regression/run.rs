@@ -4,6 +4,7 @@ use super::RegressionError;
 use crate::cases::{recorded, Case};
 use crate::memory::Memory;
 use crate::{Bench, Counts, Job, Library, Outcome, Probe, Responder, Stalls, TraceWindow};
+use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::Frames;
 use wheatstone_golden::interface::{Direction, Interface, Table};
@@ -81,23 +82,15 @@ pub enum MemoryFault {
 }
 
 /// The probes of a system, as the model wants them.
-pub fn model_probes(target: Target, config: &wheatstone_golden::config::Config) -> Vec<Probe> {
-    let unit = |probe: wheatstone_golden::targets::Probe| {
-        let unit = Interface {
-            target: probe.unit.name(),
+pub fn model_probes(target: Target, config: &Config) -> Vec<Probe> {
+    let units = target.is_system().then(|| probes(target, config)).into_iter().flatten();
+    units
+        .map(|probe| Probe {
+            instance: probe.path.into(),
             module: probe.module,
-            parameters: Vec::new(),
-            statics: Vec::new(),
             streams: vec![probe.stream],
-            flags: Vec::new(),
-        };
-        Probe::new(probe.path, &unit)
-    };
-    if target.is_system() {
-        probes(target, config).into_iter().map(unit).collect()
-    } else {
-        Vec::new()
-    }
+        })
+        .collect()
 }
 
 /// Frame buffers that differ: the first pixel, and how many.

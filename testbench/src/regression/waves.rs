@@ -141,7 +141,7 @@ pub fn record_waves(
     let window = TraceWindow { path: file.clone(), from_cycle: *cycles.start(), to_cycle: *cycles.end() };
     setting.trace = Some(window.clone());
     super::run_case(&setting, &case)?;
-    view(&library, &window, marker)?;
+    view(&library, &window, marker, "pixel")?;
     Ok(Some(Waves { file, cycles, marker }))
 }
 
