@@ -11,7 +11,8 @@ fn the_ends_are_identities_and_the_rest_is_rounded() {
             assert_eq!(mix(s, b, 0), b);
             assert_eq!(mix(s, b, 256), s);
             for t in 0..=256 {
-                let exact = (f64::from(s) * f64::from(t) + f64::from(b) * f64::from(256 - t)) / 256.0;
+                let exact =
+                    (f64::from(s) * f64::from(t) + f64::from(b) * f64::from(256 - t)) / 256.0;
                 assert!((f64::from(mix(s, b, t)) - exact).abs() <= 0.5);
             }
         }

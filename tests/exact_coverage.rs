@@ -30,9 +30,18 @@ fn compare(config: Config, cost_rule: bool, class: Class, count: usize) -> (u64,
         for (eye, (direct, hybrid)) in direct.iter().zip(&frames.eyes).enumerate() {
             for index in 0..direct.id.len() {
                 let at = (index % width as usize, index / width as usize);
-                assert_eq!(hybrid.id[index], direct.id[index], "{class:?} {batch} eye {eye} {at:?} id {polygons:?}");
-                assert_eq!(hybrid.depth[index], direct.depth[index], "{class:?} {batch} eye {eye} {at:?} depth");
-                assert_eq!(hybrid.colour[index], direct.colour[index], "{class:?} {batch} eye {eye} {at:?} colour");
+                assert_eq!(
+                    hybrid.id[index], direct.id[index],
+                    "{class:?} {batch} eye {eye} {at:?} id {polygons:?}"
+                );
+                assert_eq!(
+                    hybrid.depth[index], direct.depth[index],
+                    "{class:?} {batch} eye {eye} {at:?} depth"
+                );
+                assert_eq!(
+                    hybrid.colour[index], direct.colour[index],
+                    "{class:?} {batch} eye {eye} {at:?} colour"
+                );
             }
         }
         derived += counts.derived;

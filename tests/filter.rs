@@ -6,9 +6,35 @@ use wheatstone_golden::pipeline::filter_tables::{reciprocal, THREE_TERM, TWO_TER
 
 /// The published exponents p, q for n = 1 to 29 (paper, section 5.6.1, as recomputed).
 const PUBLISHED: [(u32, u32); 29] = [
-    (1, 1), (2, 2), (2, 4), (3, 3), (3, 4), (3, 5), (3, 6), (4, 4), (4, 4), (4, 5), (4, 5), (4, 6),
-    (4, 6), (4, 7), (4, 8), (5, 5), (5, 5), (5, 5), (5, 6), (5, 6), (5, 6), (5, 6), (5, 6), (5, 7),
-    (5, 7), (5, 7), (5, 8), (5, 8), (5, 8),
+    (1, 1),
+    (2, 2),
+    (2, 4),
+    (3, 3),
+    (3, 4),
+    (3, 5),
+    (3, 6),
+    (4, 4),
+    (4, 4),
+    (4, 5),
+    (4, 5),
+    (4, 6),
+    (4, 6),
+    (4, 7),
+    (4, 8),
+    (5, 5),
+    (5, 5),
+    (5, 5),
+    (5, 6),
+    (5, 6),
+    (5, 6),
+    (5, 6),
+    (5, 6),
+    (5, 7),
+    (5, 7),
+    (5, 7),
+    (5, 8),
+    (5, 8),
+    (5, 8),
 ];
 
 fn power(exponent: u32) -> f64 {
@@ -55,13 +81,18 @@ fn white_overflows_where_expected_and_saturates() {
     let overflowing: Vec<u32> = (1..=29).filter(|&n| sum(n) > 255).collect();
     assert_eq!(overflowing, [9, 11, 13, 17, 18, 22, 23, 26, 29]);
     // Truncated, as the published figure is: 286.9 at n = 9.
-    let truncated = |n: u32| (255 * n >> TWO_TERM[n as usize].0) + (255 * n >> TWO_TERM[n as usize].1);
+    let truncated =
+        |n: u32| ((255 * n) >> TWO_TERM[n as usize].0) + ((255 * n) >> TWO_TERM[n as usize].1);
     assert_eq!((1..=29).map(truncated).max(), Some(286));
     for n in overflowing {
         assert_eq!(divide(Division::TwoTerm, 255 * n, n), 255);
     }
     for n in [1, 2, 4, 8, 16] {
-        assert_eq!(divide(Division::TwoTerm, 255 * n, n), 255, "two truncated shifts would give 254");
+        assert_eq!(
+            divide(Division::TwoTerm, 255 * n, n),
+            255,
+            "two truncated shifts would give 254"
+        );
     }
 }
 

@@ -41,13 +41,18 @@ fn the_sample_is_the_primary_pixel_nearest_the_centre() {
                 let Some(sample) = sample else { continue };
                 pixels += 1;
                 let column = pixel.x.raw();
-                let distance = |n: usize| (2 * (positions[n] - column * SCALE_ONE) - SCALE_ONE).abs();
+                let distance =
+                    |n: usize| (2 * (positions[n] - column * SCALE_ONE) - SCALE_ONE).abs();
                 let inside = (0..400).filter(|&n| positions[n] >> FRACTION_BITS == column);
                 let nearest = inside.clone().map(distance).min();
                 let chosen = sample.data.raw() as usize;
                 // The rule asks only whether this beat is as near as the next would be, which may lie
                 // beyond the pixel: then there is no nearer one inside.
-                assert_eq!(Some(distance(chosen)), nearest, "scale {scale} start {start} column {column}");
+                assert_eq!(
+                    Some(distance(chosen)),
+                    nearest,
+                    "scale {scale} start {start} column {column}"
+                );
                 assert!(inside.clone().any(|n| n == chosen));
             }
             let columns: std::collections::BTreeSet<i64> =

@@ -53,9 +53,11 @@ fn the_map_is_rounded_to_nearest_everywhere() {
             let d = d * i128::from(f.one_pixel());
             assert!(is_nearest(map.x_at(i, j), n << 14, d), "x at ({i}, {j}) of {polygon:?}");
             // One step and one row are the differences of the map.
-            let (right, _) = barycentric(primary, secondary.map(|c| c[0]), centre(i + 1), centre(j), 1);
+            let (right, _) =
+                barycentric(primary, secondary.map(|c| c[0]), centre(i + 1), centre(j), 1);
             assert!(is_nearest(map.scale(), (right - n) << 14, d), "G1 of {polygon:?}");
-            let (down, _) = barycentric(primary, secondary.map(|c| c[0]), centre(i + 3), centre(j + 1), 1);
+            let (down, _) =
+                barycentric(primary, secondary.map(|c| c[0]), centre(i + 3), centre(j + 1), 1);
             assert!(is_nearest(map.row_shear(3), (down - n) << 14, d), "row shear of {polygon:?}");
         }
     });
@@ -80,11 +82,16 @@ fn edges_agree_with_the_top_left_rule_by_definition() {
                 for (k, edge) in edges.iter().enumerate() {
                     let ([px, py], [qx, qy]) = (points[k], points[(k + 1) % points.len()]);
                     // Clockwise as seen: an edge that goes up is a left one, a level one that goes right a top one.
-                    let ([px, py], [qx, qy]) = if area > 0 { ([px, py], [qx, qy]) } else { ([qx, qy], [px, py]) };
+                    let ([px, py], [qx, qy]) =
+                        if area > 0 { ([px, py], [qx, qy]) } else { ([qx, qy], [px, py]) };
                     let cross = (qx - px) * (y - py) - (qy - py) * (x - px);
                     let owns = qy < py || (qy == py && qx > px);
                     let expected = cross > 0 || (cross == 0 && owns);
-                    assert_eq!(edge.value().at(i, j) >= 0, expected, "({i}, {j}) edge {k} of {points:?}");
+                    assert_eq!(
+                        edge.value().at(i, j) >= 0,
+                        expected,
+                        "({i}, {j}) edge {k} of {points:?}"
+                    );
                     inside += u32::from(expected);
                 }
             }
@@ -126,7 +133,11 @@ fn extended_spans_are_those_of_the_theorem() {
             let ceil = |(n, d): (i128, i128)| -(-(2 * n - pixel * d)).div_euclid(2 * pixel * d);
             let first = crossings.iter().map(|&c| floor(c)).min();
             let last = crossings.iter().map(|&c| ceil(c)).max();
-            assert_eq!((Some(row.first.into()), Some(row.last.into())), (first, last), "{points:?} {row:?}");
+            assert_eq!(
+                (Some(row.first.into()), Some(row.last.into())),
+                (first, last),
+                "{points:?} {row:?}"
+            );
         }
     });
     assert!(rows_seen > 20_000, "{rows_seen}");
@@ -135,7 +146,12 @@ fn extended_spans_are_those_of_the_theorem() {
 #[test]
 fn parts_give_back_the_rows() {
     each_triangle(2000, |polygon, f, class| {
-        let planner = Planner::new(Config::DEFAULT, Options { cost_rule: false, ..Options::new(&Config::DEFAULT) }, 320, 240);
+        let planner = Planner::new(
+            Config::DEFAULT,
+            Options { cost_rule: false, ..Options::new(&Config::DEFAULT) },
+            320,
+            240,
+        );
         if f.subpixel_bits != 8 {
             return;
         }
@@ -177,9 +193,8 @@ fn reasons_are_given_in_order() {
         let px = |n: f64| (n * f.one_pixel() as f64) as i32;
         Vertex { x: x.map(px), y: [px(y); 2], ..Vertex::default() }
     };
-    let planner = |cost_rule| {
-        Planner::new(config, Options { cost_rule, ..Options::new(&config) }, 320, 240)
-    };
+    let planner =
+        |cost_rule| Planner::new(config, Options { cost_rule, ..Options::new(&config) }, 320, 240);
     let reason = |corners: [([f64; 2], f64); 3], change: fn(&mut Polygon)| {
         let vertices = corners.map(|(x, y)| vertex(x, y)).to_vec();
         let mut polygon = Polygon { vertices, ..Polygon::default() };
@@ -193,7 +208,10 @@ fn reasons_are_given_in_order() {
     assert_eq!(reason(large, |_| ()), None);
     assert_eq!(reason(large, |p| p.specular = true), Some((Reason::Specular, [true; 2])));
     assert_eq!(reason(large, |p| p.guard_band = true), Some((Reason::GuardBand, [true; 2])));
-    assert_eq!(reason(large, |p| p.eyes = Eyes::One(Eye::Right)), Some((Reason::ViewExclusive, [false, true])));
+    assert_eq!(
+        reason(large, |p| p.eyes = Eyes::One(Eye::Right)),
+        Some((Reason::ViewExclusive, [false, true]))
+    );
     let turned = [([10.0, 90.0], 10.0), ([90.0, 10.0], 20.0), ([40.0, 41.0], 90.0)];
     assert_eq!(reason(turned, |_| ()), Some((Reason::ViewExclusive, [true; 2])));
     let edge_on = [([10.0, 30.0], 10.0), ([90.0, 30.0], 20.0), ([40.0, 30.0], 90.0)];

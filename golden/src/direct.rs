@@ -105,7 +105,8 @@ pub fn scan(
             continue;
         }
         // Four rows of four samples: scan conversion on a grid four times as fine.
-        let lines: [[i64; 2]; 4] = [0, 1, 2, 3].map(|l| crossing(outline, 2 * (4 * y + l) + 1, one, 8));
+        let lines: [[i64; 2]; 4] =
+            [0, 1, 2, 3].map(|l| crossing(outline, 2 * (4 * y + l) + 1, one, 8));
         let touched = lines.iter().filter(|l| l[0] < l[1]);
         let first = touched.clone().map(|l| l[0].div_euclid(4)).min().unwrap_or(0);
         let end = touched.map(|l| (l[1] + 3).div_euclid(4)).max().unwrap_or(0);

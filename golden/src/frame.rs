@@ -37,7 +37,8 @@ impl Frame {
 
     /// Position of a pixel in the vectors; none outside.
     pub fn index(&self, x: i64, y: i64) -> Option<usize> {
-        let inside = (0..i64::from(self.width)).contains(&x) && (0..i64::from(self.height)).contains(&y);
+        let inside =
+            (0..i64::from(self.width)).contains(&x) && (0..i64::from(self.height)).contains(&y);
         inside.then(|| y as usize * self.width as usize + x as usize)
     }
 

@@ -201,7 +201,15 @@ impl<'a> Primary<'a> {
         beats
     }
 
-    fn beat(&self, traversal: &Traversal, x: i64, y: i64, op: Op, save: bool, last: bool) -> PrimaryBeat {
+    fn beat(
+        &self,
+        traversal: &Traversal,
+        x: i64,
+        y: i64,
+        op: Op,
+        save: bool,
+        last: bool,
+    ) -> PrimaryBeat {
         let f = &self.planner.formats;
         let values = traversal.edges.iter().map(|e| (e, e.value().at(x, y)));
         let centre = values.clone().all(|(_, value)| value >= 0);
@@ -211,7 +219,11 @@ impl<'a> Primary<'a> {
             (true, 1) => centre.into(),
             (true, _) => values.fold(0xffff, |mask, (e, value)| mask & samples(e, value, f)),
         };
-        let shade = Shade { attributes: traversal.attributes, polygon: traversal.polygon, direct: &self.direct };
+        let shade = Shade {
+            attributes: traversal.attributes,
+            polygon: traversal.polygon,
+            direct: &self.direct,
+        };
         let [column, line] = traversal.placement.place(x, y);
         PrimaryBeat {
             op,

@@ -159,7 +159,8 @@ impl Triangles {
             // Halves and wholes, so that edges and corners meet pixel centres.
             let half = self.formats.one_pixel() / 2;
             let reach = self.rng.f64() * 12.0 + 2.0;
-            corners = [(); 3].map(|()| self.around(centre, [reach; 2]).map(|c| c.div_euclid(half) * half));
+            corners = [(); 3]
+                .map(|()| self.around(centre, [reach; 2]).map(|c| c.div_euclid(half) * half));
         }
         corners
     }
@@ -181,7 +182,11 @@ impl Triangles {
         let squeeze = self.rng.bool();
         primary.map(|[x, y]| {
             if class == Class::Ties {
-                let x = if squeeze { (x - primary[0][0]).div_euclid(2 * half) * half + primary[0][0] } else { x };
+                let x = if squeeze {
+                    (x - primary[0][0]).div_euclid(2 * half) * half + primary[0][0]
+                } else {
+                    x
+                };
                 return x + ties;
             }
             // Keep shapes sheared about their own corner, or they would leave the window.

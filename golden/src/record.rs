@@ -115,7 +115,8 @@ impl Tape {
     /// A tape for a job's system; the job's polygons are not drawn by this. The beats that units
     /// take are recorded only if asked for: they are many.
     pub fn new(job: &Job, minimal: bool, keep_inputs: bool) -> Tape {
-        let formats = if minimal { Formats::minimal(&job.config) } else { Formats::new(&job.config) };
+        let formats =
+            if minimal { Formats::minimal(&job.config) } else { Formats::new(&job.config) };
         let (inputs, outputs) = (BTreeMap::new(), BTreeMap::new());
         Tape(Recorder {
             system: System::new(job, minimal),

@@ -60,8 +60,11 @@ impl Job<'_> {
 
     /// Draws both views directly, in view coordinates.
     pub fn direct(&self) -> [Frame; 2] {
-        let direct =
-            Direct { formats: Formats::new(&self.config), textures: self.textures, lookup: self.lookup };
+        let direct = Direct {
+            formats: Formats::new(&self.config),
+            textures: self.textures,
+            lookup: self.lookup,
+        };
         Eye::BOTH.map(|eye| {
             let mut frame = Frame::new(self.width, self.height, self.background);
             pieces(self.polygons).for_each(|polygon| direct.draw(&polygon, eye, &mut frame));
@@ -80,7 +83,12 @@ impl Job<'_> {
     pub fn derived(&self, minimal: bool) -> (Frames, Counts) {
         let mut frames = self.frames(minimal);
         let system = System::new(self, minimal);
-        let mut sink = SystemSink { system, output: &mut frames, observer: Blind, records: Default::default() };
+        let mut sink = SystemSink {
+            system,
+            output: &mut frames,
+            observer: Blind,
+            records: Default::default(),
+        };
         let counts = self.run(minimal, &mut sink);
         (frames, counts)
     }
@@ -107,7 +115,7 @@ pub fn pieces(polygons: &[Polygon]) -> impl Iterator<Item = Cow<'_, Polygon>> {
 #[derive(Clone, Debug)]
 pub enum System {
     /// Coordinate interpolation and sampling only.
-    Minimal(Minimal),
+    Minimal(Box<Minimal>),
     /// All units.
     Hybrid(Box<Hybrid>),
 }
@@ -117,7 +125,7 @@ impl System {
     pub fn new(job: &Job, minimal: bool) -> System {
         let (config, single) = (&job.config, job.options.single);
         if minimal {
-            System::Minimal(Minimal::new(config, job.width, job.height, single))
+            System::Minimal(Box::new(Minimal::new(config, job.width, job.height, single)))
         } else {
             System::Hybrid(Box::new(Hybrid::new(config, job.width, job.height, single)))
         }

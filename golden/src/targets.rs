@@ -77,9 +77,13 @@ impl Target {
     /// What it does, in a line.
     pub fn purpose(self) -> &'static str {
         match self {
-            Target::XInterpolator => "secondary x of every primary pixel, and its whole-pixel movement",
+            Target::XInterpolator => {
+                "secondary x of every primary pixel, and its whole-pixel movement"
+            }
             Target::YInterpolator => "display row of the secondary; affine y with a tilted head",
-            Target::EdgeInterpolator => "edge function (or depth, or colour) at whole secondary pixels",
+            Target::EdgeInterpolator => {
+                "edge function (or depth, or colour) at whole secondary pixels"
+            }
             Target::Sampler => "nearest primary pixel of a secondary pixel",
             Target::Filter => "average of the primary pixels in a secondary pixel",
             Target::Coverage => "samples of a secondary pixel inside the three edges",
@@ -259,7 +263,8 @@ pub fn probes(target: Target, config: &Config) -> Vec<Probe> {
     let probe = |unit: Unit| {
         let output = |target: Target| {
             let streams = target.streams(f);
-            let stream = streams.into_iter().find(|s| s.direction == crate::interface::Direction::Output);
+            let stream =
+                streams.into_iter().find(|s| s.direction == crate::interface::Direction::Output);
             (target.module(), stream)
         };
         let edges = "sam_edge_interpolator";

@@ -58,7 +58,11 @@ pub fn coverage(edges: &CoverageEdges, formats: &Formats) -> CoveragePixel {
     let centre = edge.iter().all(|(value, ..)| value.raw() >= 0);
     if formats.mask_bits == 1 {
         let one = i64::from(centre);
-        return CoveragePixel { mask: Mask::new(one, formats), area: Area::new(one, formats), centre };
+        return CoveragePixel {
+            mask: Mask::new(one, formats),
+            area: Area::new(one, formats),
+            centre,
+        };
     }
     let mask = edge.iter().fold(0xffff, |mask, &(value, a, b, low)| {
         mask & edge_mask(8 * value.raw() + low.raw(), a.raw(), b.raw())

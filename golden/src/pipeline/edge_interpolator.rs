@@ -71,7 +71,12 @@ macro_rules! interpolant {
             }
             #[inline]
             fn output(value: i64, a: i64, b: i64, low: LowBits, f: &Formats) -> $output {
-                $output { value: <$value>::new(value, f), a: <$slope>::new(a, f), b: <$slope>::new(b, f), low }
+                $output {
+                    value: <$value>::new(value, f),
+                    a: <$slope>::new(a, f),
+                    b: <$slope>::new(b, f),
+                    low,
+                }
             }
         }
     };

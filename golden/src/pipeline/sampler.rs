@@ -45,6 +45,9 @@ impl Sampler {
         if beat.take && (beat.near || self.candidate.is_none()) {
             self.candidate = Some(beat.data);
         }
-        beat.end.then(|| Sample { data: self.candidate.unwrap_or_default(), hit: self.candidate.is_some() })
+        beat.end.then(|| Sample {
+            data: self.candidate.unwrap_or_default(),
+            hit: self.candidate.is_some(),
+        })
     }
 }

@@ -140,7 +140,12 @@ struct EdgeRegisters {
 }
 
 impl EdgeRegisters {
-    fn new(edge: &Edge, start: &dyn Fn(&Linear) -> i64, row: &dyn Fn(&Linear) -> i64, f: &Formats) -> EdgeRegisters {
+    fn new(
+        edge: &Edge,
+        start: &dyn Fn(&Linear) -> i64,
+        row: &dyn Fn(&Linear) -> i64,
+        f: &Formats,
+    ) -> EdgeRegisters {
         let value = edge.value();
         EdgeRegisters {
             start: EdgeValue::wrap(start(&value), f),

@@ -147,7 +147,10 @@ pub struct Part<'a> {
 
 /// Cuts rows into as few parts as a greedy choice gives; `allowed` says whether a movement fits
 /// the row registers.
-pub fn parts<'a>(rows: &'a [Row], allowed: impl Fn(i64) -> bool + 'a) -> impl Iterator<Item = Part<'a>> + 'a {
+pub fn parts<'a>(
+    rows: &'a [Row],
+    allowed: impl Fn(i64) -> bool + 'a,
+) -> impl Iterator<Item = Part<'a>> + 'a {
     let mut rest = rows;
     core::iter::from_fn(move || {
         rest.first()?;
@@ -155,7 +158,8 @@ pub fn parts<'a>(rows: &'a [Row], allowed: impl Fn(i64) -> bool + 'a) -> impl It
         let mut length = 1;
         for pair in rest.windows(2) {
             let movement = i64::from(pair[1].first - pair[0].first);
-            let [low, high] = range.map_or([movement; 2], |[l, h]| [l.min(movement), h.max(movement)]);
+            let [low, high] =
+                range.map_or([movement; 2], |[l, h]| [l.min(movement), h.max(movement)]);
             let changed = range.is_none_or(|[l, _]| l != low);
             if pair[1].y != pair[0].y + 1 || high - low > 1 || (changed && !allowed(low)) {
                 break;

@@ -78,7 +78,8 @@ pub fn recorded_unit(target: Target, job: &Job, name: &str, recording: &Recordin
 pub fn output_number(target: Target, recording: &Recording, x: u32, y: u32) -> Option<u64> {
     let table = |unit: Unit| recording.outputs.get(&unit);
     let at = |row: &[u64]| row[0] == u64::from(x) && row[1] == u64::from(y);
-    let (place, xs, ys) = (table(Unit::Display)?, table(Unit::XInterpolator)?, table(Unit::YInterpolator)?);
+    let (place, xs, ys) =
+        (table(Unit::Display)?, table(Unit::XInterpolator)?, table(Unit::YInterpolator)?);
     let ends = |n: &usize| xs.row(*n)[7] | ys.row(*n)[3] == 1;
     let beat = (0..place.len()).filter(ends).find(|&n| at(place.row(n)))?;
     match target {

@@ -53,7 +53,9 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let targets = if args.targets.is_empty() { Target::ALL.to_vec() } else { args.targets.clone() };
     let systems = targets.iter().any(|t| t.is_system());
     if args.common.scene.is_some() && !systems {
-        return Err(Failure::Input("--scene: only the systems minimal and hybrid draw scenes".into()));
+        return Err(Failure::Input(
+            "--scene: only the systems minimal and hybrid draw scenes".into(),
+        ));
     }
     let out = args.out.clone().unwrap_or_else(|| output_folder("cosim"));
     let rtl = args.stimulus.rtl()?;
@@ -132,7 +134,8 @@ fn pictures(entry: &Entry, out: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for eye in Eye::BOTH {
         let frame = &scene.frames.eyes[eye as usize];
-        let colours: Vec<Rgba> = frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
+        let colours: Vec<Rgba> =
+            frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
         let file = folder.join(format!("{}.png", eye.name()));
         write_png(&file, &colour_picture(frame.width, frame.height, &colours))?;
         files.push(file);
@@ -178,7 +181,12 @@ impl Console {
     fn line(entry: &Entry) -> String {
         let result = if entry.passed() { "equal" } else { "MISMATCH" };
         let seconds = entry.time.as_secs_f64();
-        format!("{result} {} {}: {} beats in {seconds:.1} s", entry.target.name(), entry.name, entry.beats)
+        format!(
+            "{result} {} {}: {} beats in {seconds:.1} s",
+            entry.target.name(),
+            entry.name,
+            entry.beats
+        )
     }
 
     fn finish(&self) {

@@ -24,7 +24,12 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
     for target in Target::ALL {
         println!("  {:<20}{}", target.name(), target.purpose());
     }
-    println!("\nBuild parameters (--param NAME=VALUE){:>23}{:>10}{:>10}", Config::NAMES[0], Config::NAMES[1], Config::NAMES[2]);
+    println!(
+        "\nBuild parameters (--param NAME=VALUE){:>23}{:>10}{:>10}",
+        Config::NAMES[0],
+        Config::NAMES[1],
+        Config::NAMES[2]
+    );
     let configs = [Config::DEFAULT, Config::PAPER, Config::FULL];
     for parameter in &PARAMETERS {
         let name = format!("{}={}", parameter.name, parameter.values.join("|"));
@@ -44,9 +49,7 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
 }
 
 fn list_json() -> serde_json::Value {
-    let parameter = |p: &Parameter| {
-        serde_json::json!({ "name": p.name, "verilog": p.verilog, "values": p.values, "help": p.help })
-    };
+    let parameter = |p: &Parameter| serde_json::json!({ "name": p.name, "verilog": p.verilog, "values": p.values, "help": p.help });
     serde_json::json!({
         "targets": Target::ALL.map(|t| serde_json::json!({
             "name": t.name(), "module": t.module(), "system": t.is_system(), "purpose": t.purpose(),

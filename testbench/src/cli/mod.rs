@@ -181,7 +181,12 @@ impl Common {
     }
 
     /// A scene's polygons for these settings.
-    fn geometry(&self, name: &str, size: Option<[u32; 2]>, settings: &Settings) -> Result<Geometry, Failure> {
+    fn geometry(
+        &self,
+        name: &str,
+        size: Option<[u32; 2]>,
+        settings: &Settings,
+    ) -> Result<Geometry, Failure> {
         let scene = scene::open(name, size, self.rig.as_deref())?;
         let cull = match self.cull {
             CullChoice::None => Cull::None,
@@ -220,12 +225,18 @@ impl Stimulus {
         if let Some(folder) = &self.rtl {
             return Ok(folder.clone());
         }
+        // As short as it can be: the name shows up in messages.
+        if Path::new("rtl/sam_formats.vh").exists() {
+            return Ok("rtl".into());
+        }
         let here = std::env::current_dir().unwrap_or_default();
         let source = Path::new(env!("CARGO_MANIFEST_DIR"));
         let folders = here.ancestors().chain(source.ancestors()).map(|folder| folder.join("rtl"));
         let mut found = folders.filter(|folder| folder.join("sam_formats.vh").exists());
         found.next().ok_or_else(|| {
-            Failure::Input("no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into())
+            Failure::Input(
+                "no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into(),
+            )
         })
     }
 }

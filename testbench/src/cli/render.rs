@@ -47,7 +47,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let direct_time = start.elapsed();
     let frames = match args.method {
         MethodChoice::Direct => {
-            println!("{} polygons, both views directly in {direct_time:.1?}", geometry.polygons.len());
+            println!(
+                "{} polygons, both views directly in {direct_time:.1?}",
+                geometry.polygons.len()
+            );
             direct
         }
         method => {
@@ -95,7 +98,10 @@ fn compare(frames: &[Frame; 2], direct: &[Frame; 2]) {
     for eye in Eye::BOTH {
         let (frame, direct) = (&frames[eye as usize], &direct[eye as usize]);
         if (frame.width, frame.height) != (direct.width, direct.height) {
-            println!("{} view: arranged for its display, not compared with direct rendering", eye.name());
+            println!(
+                "{} view: arranged for its display, not compared with direct rendering",
+                eye.name()
+            );
             continue;
         }
         let pixels = direct.colour.len();

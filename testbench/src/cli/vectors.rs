@@ -37,7 +37,7 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
     let targets = if args.targets.is_empty() { Target::ALL.to_vec() } else { args.targets.clone() };
     let rtl = args.stimulus.rtl()?;
     let (seed, beats) = (args.stimulus.seed, args.stimulus.beats.unwrap_or(BEATS) as usize);
-    for target in targets {
+    for &target in &targets {
         let case = case(args, &settings, target, seed, beats)?;
         let hash = pack::rtl_hash(&rtl, target.module())?;
         let info = pack::write(&case, seed, &hash, &args.out)?;
@@ -45,7 +45,11 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
     }
     let folder = args.out.display();
     println!("verify with:  wheatstone check {folder}");
-    println!("replay with:  P={folder}/filter; iverilog -g2005 -I rtl -I $P -o t $P/replay.v rtl/*.v && vvp t");
+    println!(
+        "replay with:  iverilog -g2005 -I {folder}/{0} -o t {folder}/{0}/replay.v {1}/*.v && vvp t",
+        targets[0].name(),
+        rtl.display()
+    );
     Ok(OK)
 }
 

@@ -61,10 +61,21 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
     std::fs::create_dir_all(&out).map_err(|source| WriteError { file: out.clone(), source })?;
     let rtl = args.stimulus.rtl()?;
     let builder = builder(false)?;
-    let waves = record_waves(args.target, &settings, job.as_ref(), focus, args.stimulus.seed, &rtl, &builder, &out)?;
+    let waves = record_waves(
+        args.target,
+        &settings,
+        job.as_ref(),
+        focus,
+        args.stimulus.seed,
+        &rtl,
+        &builder,
+        &out,
+    )?;
     let Some(waves) = waves else {
         return Err(Failure::Input(match focus {
-            Focus::Pixel(eye, x, y) => format!("--pixel {},{x},{y}: {name} draws nothing there", eye.name()),
+            Focus::Pixel(eye, x, y) => {
+                format!("--pixel {},{x},{y}: {name} draws nothing there", eye.name())
+            }
             _ => format!("--polygon: {name} does not draw this polygon"),
         }));
     };
@@ -75,7 +86,8 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
     let view = waves.file.with_extension("gtkw");
     println!("open with:  gtkwave {}", view.display());
     if args.open {
-        let gtkwave = crate::tools::GTKWAVE.find_in(&std::env::var_os("PATH").unwrap_or_default())?;
+        let gtkwave =
+            crate::tools::GTKWAVE.find_in(&std::env::var_os("PATH").unwrap_or_default())?;
         std::process::Command::new(&gtkwave.program)
             .arg(&view)
             .spawn()

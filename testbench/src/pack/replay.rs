@@ -119,7 +119,6 @@ const BENCH_HEAD: &str = r#"// Generated; replays a vector pack on @MODULE@ and 
 //   iverilog -g2005 -I PACK -o t PACK/replay.v rtl/*.v && vvp t
 // Plusargs: +stall=0 offers and takes a beat on every clock; +pack=DIR names the pack's folder where
 // the simulator does not know where this file lies; +dump=FILE writes a VCD.
-`timescale 1ns / 1ps
 `include "vec.vh"
 module replay;
   reg clk = 1'b0;

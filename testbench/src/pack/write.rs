@@ -4,6 +4,7 @@ use super::*;
 use crate::cases::Case;
 use std::fs;
 use std::path::{Path, PathBuf};
+use wheatstone_golden::header::formats_header;
 use wheatstone_golden::interface::{Direction, Stream, Table};
 
 /// What was written.
@@ -102,6 +103,8 @@ fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manif
     for (file, text) in [
         ("vec.vh", replay::header(&manifest, &interface)),
         ("replay.v", replay::bench(&manifest, &interface)),
+        // The Verilog includes it, and `-I PACK` is all that a simulator is told.
+        ("sam_formats.vh", formats_header()),
     ] {
         manifest.bench.push(save(folder, file, text.as_bytes())?);
     }

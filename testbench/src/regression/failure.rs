@@ -102,7 +102,9 @@ impl Failure {
             waves: None,
         };
         match &ran.outcome {
-            Outcome::Mismatch(mismatch) => failure.mismatch(target, mismatch, ran.recording.as_deref()),
+            Outcome::Mismatch(mismatch) => {
+                failure.mismatch(target, mismatch, ran.recording.as_deref())
+            }
             Outcome::Hung(hung) => failure.cycle = Some(hung.cycle),
             Outcome::Passed(_) => {}
         }
@@ -114,7 +116,8 @@ impl Failure {
         }
         if plan.waves != Waves::Never {
             if let Some(cycle) = failure.cycle {
-                let window = window(plan, target, seed, cycle.saturating_sub(BEFORE)..=cycle + AFTER)?;
+                let window =
+                    window(plan, target, seed, cycle.saturating_sub(BEFORE)..=cycle + AFTER)?;
                 again(window.clone())?;
                 view(library, &window, Some(cycle), "first mismatch")?;
                 failure.waves = Some(window.path);
@@ -172,12 +175,21 @@ impl Failure {
     }
 }
 
-fn location(eye: Eye, x: impl wheatstone_golden::formats::Quantity, y: impl wheatstone_golden::formats::Quantity) -> Location {
+fn location(
+    eye: Eye,
+    x: impl wheatstone_golden::formats::Quantity,
+    y: impl wheatstone_golden::formats::Quantity,
+) -> Location {
     Location { eye, x: x.raw() as u32, y: y.raw() as u32 }
 }
 
 /// The secondary pixel that beat `number` of a unit's output belongs to.
-fn locate(recording: &Recording, instance: &str, number: u64, failure: &mut Failure) -> Option<Location> {
+fn locate(
+    recording: &Recording,
+    instance: &str,
+    number: u64,
+    failure: &mut Failure,
+) -> Option<Location> {
     let unit = Unit::ALL.into_iter().find(|u| u.instance() == instance)?;
     let table = |unit: Unit| recording.outputs.get(&unit);
     let (x, y) = (table(Unit::XInterpolator)?, table(Unit::YInterpolator)?);
@@ -189,15 +201,19 @@ fn locate(recording: &Recording, instance: &str, number: u64, failure: &mut Fail
         }
         Unit::Blend => {
             let requests = recording.streams.get("request")?;
-            let request = Request::read((number as usize) .lt(&requests.len()).then(|| requests.row(number as usize))?);
+            let request = Request::read(
+                (number as usize).lt(&requests.len()).then(|| requests.row(number as usize))?,
+            );
             return Some(location(request.eye, request.x, request.y));
         }
         _ => number,
     };
-    let after = recording.polygons.partition_point(|&(first, _)| first <= recording.first_beat + beat);
+    let after =
+        recording.polygons.partition_point(|&(first, _)| first <= recording.first_beat + beat);
     failure.polygon = recording.polygons.get(after.checked_sub(1)?).map(|&(_, id)| id);
     let beats = recording.streams.get("beat")?;
-    let loads = (0..=beat as usize).filter(|&n| n < beats.len() && PrimaryBeat::read(beats.row(n)).op == Op::Load);
+    let loads = (0..=beat as usize)
+        .filter(|&n| n < beats.len() && PrimaryBeat::read(beats.row(n)).op == Op::Load);
     let setup = recording.streams.get("setup")?;
     let mode: Mode = Setup::read(setup.row(loads.count().checked_sub(1)?)).mode;
     let place = table(Unit::Display)?;
@@ -261,12 +277,16 @@ impl fmt::Display for Failure {
         line("actual", self.actual.as_ref().map(|s| s as &dyn fmt::Display))?;
         line("what", Some(&self.what))?;
         line("cycle", self.cycle.as_ref().map(|c| c as &dyn fmt::Display))?;
-        let stalls = format!("{} (idle {}, back-pressure {})", self.seed, self.stalls[0], self.stalls[1]);
+        let stalls =
+            format!("{} (idle {}, back-pressure {})", self.seed, self.stalls[0], self.stalls[1]);
         line("seed", Some(&stalls))?;
         line("repeat with", Some(&self.repeat))?;
         if let Some(waves) = &self.waves {
             line("waveforms", Some(&waves.display()))?;
-            line("open with", Some(&format!("gtkwave {}", waves.with_extension("gtkw").display())))?;
+            line(
+                "open with",
+                Some(&format!("gtkwave {}", waves.with_extension("gtkw").display())),
+            )?;
         }
         Ok(())
     }

@@ -11,14 +11,12 @@ mod waves;
 
 pub use failure::{Failure, Location};
 pub use report::{drawn_line, json, junit, table};
-pub use waves::{record_waves, scene_head, Focus, Waves as WaveFile};
 pub use run::{model_probes, run_case, run_scene, MemoryFault, Ran, SceneRan, Setting};
+pub use waves::{record_waves, scene_head, Focus, Waves as WaveFile};
 
 use crate::cases::{self, Case};
 use crate::settings::Settings;
-use crate::{
-    BuildError, Builder, JobError, Library, LoadError, Pattern, Spec, Stalls, TraceError,
-};
+use crate::{BuildError, Builder, JobError, Library, LoadError, Pattern, Spec, Stalls, TraceError};
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock};
@@ -190,7 +188,11 @@ impl Models<'_> {
         let build = || {
             let probes = model_probes(target, config);
             let interface = target.interface(config);
-            self.builder.build(&Spec { interface: &interface, rtl: &self.plan.rtl, probes: &probes })
+            self.builder.build(&Spec {
+                interface: &interface,
+                rtl: &self.plan.rtl,
+                probes: &probes,
+            })
         };
         let Some((_, cell, lock)) = self.libraries.iter().find(|(t, ..)| *t == target) else {
             return build();
@@ -332,7 +334,8 @@ fn try_case(
             setting.trace = Some(window);
             run_case(&setting, case).map(drop)
         };
-        entry.failure = Some(Failure::new(plan, case.target, &case.name, seed, stalls, ran, library, again)?);
+        entry.failure =
+            Some(Failure::new(plan, case.target, &case.name, seed, stalls, ran, library, again)?);
     } else if let Some(trace) = &setting.trace {
         failure::view(library, trace, None, "")?;
     }
@@ -384,9 +387,9 @@ fn draw(
     let stalled = stalls_of(plan.seed.wrapping_mul(7).wrapping_add(8));
     for (stalls, latency) in [(Stalls::NONE, steady), (stalled, plan.settings.latency)] {
         let mut setting = Setting { library, seed: plan.seed, stalls, latency, trace: None };
-        let start = Instant::now();
-        let SceneRan { ran, drawn, frames } = run_scene(&setting, target, &scene.job, |_| ())?;
-        entry.add(&ran, drawn.beats(), start.elapsed());
+        let SceneRan { ran, drawn, frames, simulation } =
+            run_scene(&setting, target, &scene.job, |_| ())?;
+        entry.add(&ran, drawn.beats(), simulation);
         if !ran.passed() {
             let again = |window| {
                 setting.trace = Some(window);
@@ -400,7 +403,8 @@ fn draw(
         if entry.scene.is_none() {
             let beat = ran.counts.stream("beat");
             let clocks = beat.map_or(0, |s| s.active);
-            let pixels = Eye::BOTH.iter().map(|&e| frames.eyes[e as usize].colour.len() as u64).sum();
+            let pixels =
+                Eye::BOTH.iter().map(|&e| frames.eyes[e as usize].colour.len() as u64).sum();
             let acceptance = beat.map_or(1.0, |s| s.throughput());
             let written = frames.written;
             entry.scene = Some(SceneEntry { drawn, frames, pixels, written, clocks, acceptance });

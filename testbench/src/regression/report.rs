@@ -27,7 +27,16 @@ fn grouped(n: u64) -> String {
 pub fn table(entries: &[Entry]) -> String {
     let mut table = Table::new();
     table.load_preset(UTF8_HORIZONTAL_ONLY);
-    table.set_header(["target", "case", "runs", "beats", "compared", "pixels", "Mclocks/s", "mismatches"]);
+    table.set_header([
+        "target",
+        "case",
+        "runs",
+        "beats",
+        "compared",
+        "pixels",
+        "Mclocks/s",
+        "mismatches",
+    ]);
     for n in 2..8 {
         if let Some(column) = table.column_mut(n) {
             column.set_cell_alignment(CellAlignment::Right);
@@ -77,9 +86,15 @@ fn scene_line(scene: &SceneEntry) -> String {
 
 /// How polygons were drawn, in a line.
 pub fn drawn_line(drawn: &Drawn) -> String {
-    let mut parts = vec![format!("{} polygons", grouped(drawn.polygons)), format!("{} derived", grouped(drawn.derived))];
-    let reasons: Vec<String> =
-        drawn.monocular.iter().map(|(reason, n)| format!("{} {}", grouped(*n), reason.name())).collect();
+    let mut parts = vec![
+        format!("{} polygons", grouped(drawn.polygons)),
+        format!("{} derived", grouped(drawn.derived)),
+    ];
+    let reasons: Vec<String> = drawn
+        .monocular
+        .iter()
+        .map(|(reason, n)| format!("{} {}", grouped(*n), reason.name()))
+        .collect();
     let monocular: u64 = drawn.monocular.values().sum();
     let why = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
     parts.push(format!("{} monocular{why}", grouped(monocular)));

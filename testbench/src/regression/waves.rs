@@ -56,7 +56,8 @@ struct Part {
 fn part(job: &Scene, minimal: bool, wanted: impl Fn(u32) -> bool, beats: usize) -> Option<Part> {
     let mut tape = Tape::new(job, minimal, true);
     let mut primary = Primary::new(job.planner(minimal), job.textures, job.lookup);
-    let last = pieces(job.polygons).enumerate().filter(|(_, p)| wanted(p.id)).map(|(n, _)| n).last()?;
+    let last =
+        pieces(job.polygons).enumerate().filter(|(_, p)| wanted(p.id)).map(|(n, _)| n).last()?;
     let mut before = None;
     for (n, polygon) in pieces(job.polygons).enumerate().take(last + 1) {
         if before.is_none() && wanted(polygon.id) {
@@ -120,25 +121,30 @@ pub fn record_waves(
     };
     // First without waveforms, to learn the cycle.
     let mut marker = None;
-    let ran = run_case_watched(&setting, &case, Some(&mut |taken| {
-        let wanted = match focus {
-            Focus::Pixel(eye, x, y) if target.is_system() => {
-                // Pixels have eight fields, requests three.
-                taken.row.len() == 8 && taken.row[..3] == [eye as u64, x.into(), y.into()]
+    let ran = run_case_watched(
+        &setting,
+        &case,
+        Some(&mut |taken| {
+            let wanted = match focus {
+                Focus::Pixel(eye, x, y) if target.is_system() => {
+                    // Pixels have eight fields, requests three.
+                    taken.row.len() == 8 && taken.row[..3] == [eye as u64, x.into(), y.into()]
+                }
+                Focus::Pixel(..) => Some(taken.number) == number,
+                _ => false,
+            };
+            if wanted {
+                marker = Some(taken.cycle);
             }
-            Focus::Pixel(..) => Some(taken.number) == number,
-            _ => false,
-        };
-        if wanted {
-            marker = Some(taken.cycle);
-        }
-    }))?;
+        }),
+    )?;
     let cycles = match marker {
         Some(cycle) => cycle.saturating_sub(AROUND[0])..=cycle + AROUND[1],
         None => 0..=ran.counts.simulated.clamp(64, LONGEST),
     };
     let file = out.join(format!("{}.fst", target.name()));
-    let window = TraceWindow { path: file.clone(), from_cycle: *cycles.start(), to_cycle: *cycles.end() };
+    let window =
+        TraceWindow { path: file.clone(), from_cycle: *cycles.start(), to_cycle: *cycles.end() };
     setting.trace = Some(window.clone());
     super::run_case(&setting, &case)?;
     view(&library, &window, marker, "pixel")?;
