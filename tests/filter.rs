@@ -82,7 +82,7 @@ fn white_overflows_where_expected_and_saturates() {
     assert_eq!(overflowing, [9, 11, 13, 17, 18, 22, 23, 26, 29]);
     // Truncated, as the published figure is: 286.9 at n = 9.
     let truncated =
-        |n: u32| (255 * n >> TWO_TERM[n as usize].0) + (255 * n >> TWO_TERM[n as usize].1);
+        |n: u32| ((255 * n) >> TWO_TERM[n as usize].0) + ((255 * n) >> TWO_TERM[n as usize].1);
     assert_eq!((1..=29).map(truncated).max(), Some(286));
     for n in overflowing {
         assert_eq!(divide(Division::TwoTerm, 255 * n, n), 255);

@@ -115,7 +115,7 @@ pub fn pieces(polygons: &[Polygon]) -> impl Iterator<Item = Cow<'_, Polygon>> {
 #[derive(Clone, Debug)]
 pub enum System {
     /// Coordinate interpolation and sampling only.
-    Minimal(Minimal),
+    Minimal(Box<Minimal>),
     /// All units.
     Hybrid(Box<Hybrid>),
 }
@@ -125,7 +125,7 @@ impl System {
     pub fn new(job: &Job, minimal: bool) -> System {
         let (config, single) = (&job.config, job.options.single);
         if minimal {
-            System::Minimal(Minimal::new(config, job.width, job.height, single))
+            System::Minimal(Box::new(Minimal::new(config, job.width, job.height, single)))
         } else {
             System::Hybrid(Box::new(Hybrid::new(config, job.width, job.height, single)))
         }

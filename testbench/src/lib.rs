@@ -10,6 +10,7 @@
 mod bench;
 pub mod cases;
 pub mod cli;
+mod cursors;
 mod drive;
 mod job;
 mod layout;

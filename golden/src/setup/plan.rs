@@ -7,6 +7,7 @@ use super::polygon::{Eyes, Polygon};
 use super::span::{Row, View};
 use crate::config::Config;
 use crate::formats::{Eye, Formats, Rgba, FRACTION_BITS, GUARD_BITS, WIDENING_LIMIT};
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 /// What to do about highlights that the eyes see differently (paper, section 5.5).
@@ -217,7 +218,7 @@ pub enum Plan {
         eyes: [bool; 2],
     },
     /// Drawn for both eyes in one pass.
-    Derived(Derived),
+    Derived(Box<Derived>),
 }
 
 /// Decides how polygons are drawn.
@@ -330,7 +331,7 @@ impl Planner {
             Sampling::Nearest => false,
             Sampling::Average => true,
         };
-        Ok(Plan::Derived(Derived {
+        Ok(Plan::Derived(Box::new(Derived {
             primary,
             map,
             primary_view,
@@ -338,7 +339,7 @@ impl Planner {
             rows,
             planes,
             average,
-        }))
+        })))
     }
 
     fn monocular_cost(&self, view: &View) -> u64 {

@@ -141,7 +141,7 @@ pub fn display_case(config: &Config, seed: u64, beats: usize) -> Case {
 pub fn redirect_case(config: &Config, seed: u64, beats: usize) -> Case {
     let f = &Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
-    let single = seed % 3 == 0;
+    let single = seed.is_multiple_of(3);
     let mut case = Case::empty(
         Target::Redirect,
         config,

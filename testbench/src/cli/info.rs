@@ -25,7 +25,7 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
         println!("  {:<20}{}", target.name(), target.purpose());
     }
     println!(
-        "\nBuild parameters (--param NAME=VALUE){:>23}{:>10}{:>10}",
+        "\nBuild parameters (--param NAME=VALUE){:>23} {:>13} {:>13}",
         Config::NAMES[0],
         Config::NAMES[1],
         Config::NAMES[2]
@@ -33,8 +33,8 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
     let configs = [Config::DEFAULT, Config::PAPER, Config::FULL];
     for parameter in &PARAMETERS {
         let name = format!("{}={}", parameter.name, parameter.values.join("|"));
-        let values = configs.map(|c| format!("{:>10}", c.value(parameter)));
-        println!("  {name:<45}{:>13}{}{}", values[0].trim(), values[1], values[2]);
+        let values = configs.map(|c| format!("{:>13}", c.value(parameter)));
+        println!("  {name:<45}{:>13} {} {}", values[0].trim(), values[1], values[2]);
         println!("      {}", parameter.help);
     }
     println!("\nRun parameters (--param NAME=VALUE), the first value is the usual one");

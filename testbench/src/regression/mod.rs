@@ -387,9 +387,9 @@ fn draw(
     let stalled = stalls_of(plan.seed.wrapping_mul(7).wrapping_add(8));
     for (stalls, latency) in [(Stalls::NONE, steady), (stalled, plan.settings.latency)] {
         let mut setting = Setting { library, seed: plan.seed, stalls, latency, trace: None };
-        let start = Instant::now();
-        let SceneRan { ran, drawn, frames } = run_scene(&setting, target, &scene.job, |_| ())?;
-        entry.add(&ran, drawn.beats(), start.elapsed());
+        let SceneRan { ran, drawn, frames, simulation } =
+            run_scene(&setting, target, &scene.job, |_| ())?;
+        entry.add(&ran, drawn.beats(), simulation);
         if !ran.passed() {
             let again = |window| {
                 setting.trace = Some(window);

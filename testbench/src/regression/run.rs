@@ -4,6 +4,7 @@ use super::RegressionError;
 use crate::cases::{recorded, Case};
 use crate::memory::Memory;
 use crate::{Bench, Counts, Job, Library, Outcome, Probe, Responder, Stalls, TraceWindow};
+use std::time::{Duration, Instant};
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::Frames;
@@ -148,8 +149,10 @@ impl<'a> Runner<'a> {
             // The memory answers, not a table.
             tables.push(table.filter(|_| responder.is_none() || stream.answers.is_none()));
         }
-        let probes: Vec<Option<&Table>> =
-            case.probes.iter().map(|(_, table)| Some(table)).collect();
+        // A model may be built without probes, for speed.
+        let probed = !self.setting.library.probes().is_empty();
+        let probes = case.probes.iter().filter(|_| probed).map(|(_, table)| Some(table));
+        let probes: Vec<Option<&Table>> = probes.collect();
         let job = Job {
             statics: &case.statics,
             tables: &tables,
@@ -254,6 +257,8 @@ pub struct SceneRan {
     pub drawn: Drawn,
     /// The frame buffers that the Verilog filled.
     pub frames: Frames,
+    /// Time in the simulation, comparison included, the golden model left out.
+    pub simulation: Duration,
 }
 
 /// Draws a scene with the golden model and the Verilog side by side.
@@ -270,6 +275,7 @@ pub fn run_scene(
     let mut tape = Tape::new(scene, minimal, false);
     let mut polygons = pieces(scene.polygons).peekable();
     let mut drawn = 0;
+    let mut simulation = Duration::ZERO;
     loop {
         while let Some(polygon) = polygons.next_if(|_| tape.len() < PART) {
             primary.draw(&polygon, tape.sink());
@@ -279,7 +285,9 @@ pub fn run_scene(
         let recording = tape.take();
         let case = recorded(target, scene, "scene", &recording);
         memory.expect(case.responses());
+        let start = Instant::now();
         let last = runner.run(&case, Some(&mut memory))?;
+        simulation += start.elapsed();
         progress(drawn);
         let failed = !matches!(last, Outcome::Passed(_)) || memory.stale.is_some();
         if failed || done {
@@ -288,7 +296,8 @@ pub fn run_scene(
                 faults = compare_frames(tape.frames(), &memory.frames);
             }
             let ran = runner.finish(last, faults, failed.then_some(recording));
-            return Ok(SceneRan { ran, drawn: primary.counts, frames: memory.frames });
+            let (drawn, frames) = (primary.counts, memory.frames);
+            return Ok(SceneRan { ran, drawn, frames, simulation });
         }
     }
 }
