@@ -1,19 +1,11 @@
-//! The generated parts of the documentation: tables of interfaces, from the definitions that the
-//! hardware and its tests use.
-//!
-//! A page of `docs/` carries its tables between [`BEGIN`] and [`END`]; the rest is written by hand.
+//! Tables for the documentation: interfaces, from the definitions that the hardware and its tests
+//! use. The pages of `docs/` carry them between marks; the rest is written by hand.
 
 use crate::config::{Config, PARAMETERS};
-use crate::header::formats_header;
 use crate::interface::{Direction, Field, Interface, Kind, Stream};
 use crate::targets::{probes, Target};
 use std::fmt::Write;
-use thiserror::Error;
 
-/// Line before the generated part of a page.
-pub const BEGIN: &str = "<!-- generated: interface -->";
-/// Line after the generated part of a page.
-pub const END: &str = "<!-- end -->";
 /// The command that writes everything generated anew.
 pub const COMMAND: &str = "cargo run -p wheatstone-testbench -- generate";
 
@@ -27,44 +19,6 @@ const WIDTH_PARAMETERS: [(&str, &str); 4] = [
     ("WIDTH", "bits of the data"),
     ("TAG_BITS", "bits of the tag"),
 ];
-
-/// A file of the workspace that is generated, whole or in part.
-#[derive(Clone, Debug)]
-pub struct Generated {
-    /// Path below the workspace.
-    pub path: String,
-    /// For a page: what its tables describe.
-    target: Option<Target>,
-}
-
-/// A page has no place for its tables.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{path}: no line {BEGIN} with a line {END} after it")]
-pub struct MissingMarks {
-    /// The page.
-    pub path: String,
-}
-
-impl Generated {
-    /// All generated files.
-    pub fn all() -> impl Iterator<Item = Generated> {
-        let header = Generated { path: "rtl/sam_formats.vh".into(), target: None };
-        let page = |target: Target| {
-            let path = format!("docs/{}.md", target.name());
-            Generated { path, target: Some(target) }
-        };
-        std::iter::once(header).chain(Target::ALL.into_iter().map(page))
-    }
-
-    /// The text that the file should have, given the one that it has.
-    pub fn renewed(&self, present: &str) -> Result<String, MissingMarks> {
-        let Some(target) = self.target else { return Ok(formats_header()) };
-        let missing = || MissingMarks { path: self.path.clone() };
-        let (before, rest) = present.split_once(BEGIN).ok_or_else(missing)?;
-        let (_, after) = rest.split_once(END).ok_or_else(missing)?;
-        Ok(format!("{before}{BEGIN}\n{}{END}{after}", interface_tables(target)))
-    }
-}
 
 /// Parameters, ports and streams of a target as Markdown tables, the three named configurations
 /// side by side.
@@ -93,7 +47,10 @@ fn line(text: &mut String, line: impl AsRef<str>) {
 }
 
 fn parameters(text: &mut String, all: &[Interface; 3]) {
-    line(text, "\n| parameter | default | paper | full | meaning |\n| --- | --- | --- | --- | --- |");
+    line(
+        text,
+        "\n| parameter | default | paper | full | meaning |\n| --- | --- | --- | --- | --- |",
+    );
     for (n, (name, _)) in all[0].parameters.iter().enumerate() {
         let [a, b, c] = [0, 1, 2].map(|k: usize| all[k].parameters[n].1);
         let built = PARAMETERS.iter().find(|p| p.verilog == *name);
@@ -128,7 +85,10 @@ fn instances(text: &mut String) {
 }
 
 fn ports(text: &mut String, all: &[Interface; 3]) {
-    line(text, "\n| stream | | field | bits | format | meaning |\n| --- | --- | --- | --- | --- | --- |");
+    line(
+        text,
+        "\n| stream | | field | bits | format | meaning |\n| --- | --- | --- | --- | --- | --- |",
+    );
     let mut streams: Vec<(String, usize)> = Vec::new();
     for (n, stream) in all[0].streams.iter().enumerate() {
         match streams.last_mut() {
@@ -170,7 +130,10 @@ fn rows(text: &mut String, names: &str, direction: &str, fields: [&[Field]; 3]) 
         let format = format_of(field);
         line(
             text,
-            format!("| {names} | {direction} | `{}` | {bits} | {format} | {} |", field.name, field.doc),
+            format!(
+                "| {names} | {direction} | `{}` | {bits} | {format} | {} |",
+                field.name, field.doc
+            ),
         );
     }
 }
@@ -209,16 +172,5 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn only_the_marked_part_of_a_page_is_renewed() {
-        let page = Generated { path: "docs/blend.md".into(), target: Some(Target::Blend) };
-        let text = page.renewed(&format!("above\n{BEGIN}\nold\n{END}\nbelow\n")).unwrap();
-        assert!(text.starts_with("above\n") && text.ends_with("\nbelow\n"));
-        assert!(!text.contains("old") && text.contains("| `pixel` | in |"));
-        assert_eq!(page.renewed(&text), Ok(text.clone()));
-        let error = page.renewed("nothing").unwrap_err();
-        assert!(error.to_string().starts_with("docs/blend.md: no line <!-- generated"));
     }
 }

@@ -1,7 +1,7 @@
 //! `wheatstone generate`.
 
 use super::*;
-use wheatstone_golden::document::Generated;
+use crate::generated::Generated;
 use wheatstone_golden::picture::write_file;
 
 #[derive(Debug, Args)]
@@ -17,20 +17,20 @@ pub(super) fn run(args: &GenerateArgs) -> Result<u8, Failure> {
     })?;
     let mut status = OK;
     for generated in Generated::all() {
-        let file = root.join(&generated.path);
+        let path = generated.path();
+        let file = root.join(&path);
         let present = std::fs::read_to_string(&file)
             .map_err(|error| Failure::Input(format!("{}: {error}", file.display())))?;
-        let renewed =
-            generated.renewed(&present).map_err(|error| Failure::Input(error.to_string()))?;
+        let renewed = generated.renewed(&present, &root)?;
         if renewed == present {
             continue;
         }
         if args.check {
-            println!("{}: not current; run: wheatstone generate", generated.path);
+            println!("{path}: not current; run: wheatstone generate");
             status = MISMATCH;
         } else {
             write_file(&file, renewed.as_bytes())?;
-            println!("{}: written", generated.path);
+            println!("{path}: written");
         }
     }
     Ok(status)

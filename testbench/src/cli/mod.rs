@@ -9,6 +9,7 @@ mod render;
 mod vectors;
 mod waves;
 
+use crate::generated::GenerateError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
 use crate::settings::{SettingError, Settings};
@@ -144,6 +145,8 @@ enum Failure {
     Tool(#[from] ToolError),
     #[error(transparent)]
     Regression(#[from] RegressionError),
+    #[error(transparent)]
+    Generate(#[from] GenerateError),
     #[error("{0}")]
     Input(String),
 }
@@ -246,7 +249,7 @@ impl Stimulus {
 }
 
 /// The job that draws a scene's polygons.
-fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Options) -> Job<'a> {
+pub(crate) fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Options) -> Job<'a> {
     Job {
         config: settings.config,
         options,
