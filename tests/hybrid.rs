@@ -52,7 +52,12 @@ fn polygons(seed: u64, config: &Config, count: u32) -> Vec<Polygon> {
 }
 
 /// Colour, depth and id of a view pixel, found on its display by the definition of the arrangement.
-fn seen(frame: &Frame, arrangement: Arrangement, eye: Eye, [x, y]: [i64; 2]) -> ([u8; 3], u32, u32) {
+fn seen(
+    frame: &Frame,
+    arrangement: Arrangement,
+    eye: Eye,
+    [x, y]: [i64; 2],
+) -> ([u8; 3], u32, u32) {
     let [width, height] = SIZE.map(i64::from);
     let right = eye == Eye::Right;
     let [column, row] = match arrangement {
@@ -108,7 +113,7 @@ fn the_memory_may_test_depth_instead() {
         // The memory gets pixels that the hybrid would have dropped.
         let internal = Job { config: UPRIGHT, ..job.clone() };
         let (tested, _) = internal.derived(false);
-        assert_eq!(frames.eyes, tested.eyes);
+        assert!(frames.eyes == tested.eyes, "seed {seed}");
         let pixels = |f: &wheatstone_golden::frame::Frames| f.written.iter().sum::<u64>();
         assert!(pixels(&frames) > pixels(&tested));
     }
@@ -129,7 +134,7 @@ fn one_display_gets_every_pixel_in_the_order_of_both_streams() {
         let all = rows(&one_stream["left"]);
         for eye in Eye::BOTH {
             let own: Vec<Pixel> = all.iter().filter(|p| p.eye == eye).copied().collect();
-            assert_eq!(own, rows(&two_streams[eye.name()]), "{eye:?}");
+            assert!(own == rows(&two_streams[eye.name()]), "{eye:?} of seed {seed}");
         }
         assert_equal(&one.derived(false).0.eyes, &two.direct(), Arrangement::Normal, "one display");
     }
@@ -143,14 +148,17 @@ fn a_sampled_depth_changes_no_coverage_and_is_that_of_a_primary_pixel() {
         let mut triangles = Triangles::new(class as u64, Formats::new(&config), SIZE[0], SIZE[1]);
         for _ in 0..60 {
             // One at a time: nothing is hidden, so a frame shows what was covered.
-            let polygon = triangles.triangle(class);
+            let mut polygon = triangles.triangle(class);
+            // Flat enough that no extrapolated depth reaches the far plane and is clamped there.
+            polygon.vertices.iter_mut().for_each(|v| v.depth = (1 << 23) + v.depth % 100);
             let options = Options { cost_rule: false, ..Options::new(&config) };
             let job = job(config, options, std::slice::from_ref(&polygon));
             let (direct, recording) = (job.direct(), Recording::of(&job, false));
             let (frames, counts) = job.derived(false);
             for eye in Eye::BOTH {
-                assert_eq!(frames.eyes[eye as usize].id, direct[eye as usize].id, "{polygon:?}");
-                assert_eq!(frames.eyes[eye as usize].colour, direct[eye as usize].colour);
+                let (frame, direct) = (&frames.eyes[eye as usize], &direct[eye as usize]);
+                assert!(frame.id == direct.id, "{eye:?} coverage of {polygon:?}");
+                assert!(frame.colour == direct.colour, "{eye:?} colour of {polygon:?}");
             }
             if counts.derived == 0 {
                 continue;
@@ -184,7 +192,7 @@ fn without_integrated_colour_only_colours_differ() {
         let job = job(config, options, &polygons);
         let (direct, (frames, _)) = (job.direct(), job.derived(false));
         for (frame, direct) in frames.eyes.iter().zip(&direct) {
-            assert_eq!((&frame.id, &frame.depth), (&direct.id, &direct.depth));
+            assert!(frame.id == direct.id && frame.depth == direct.depth, "seed {seed}");
             let pairs = frame.colour.iter().zip(&direct.colour);
             differ += pairs.filter(|(a, b)| a != b).count();
         }

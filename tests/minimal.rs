@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use walk::{each_derived, exact, walk, Fraction};
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
-use wheatstone_golden::interface::{Beat as _, Table};
+use wheatstone_golden::interface::{Beat, Table};
 use wheatstone_golden::pipeline::{Pixel, PrimaryBeat};
 use wheatstone_golden::random::Class;
 use wheatstone_golden::record::Recording;
@@ -17,7 +17,7 @@ use wheatstone_golden::texture::Lookup;
 
 const SIZE: [u32; 2] = [160, 120];
 
-fn beats<B: wheatstone_golden::interface::Beat>(table: &Table) -> Vec<B> {
+fn beats<B: Beat>(table: &Table) -> Vec<B> {
     (0..table.len()).map(|n| B::read(table.row(n))).collect()
 }
 
