@@ -47,7 +47,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let direct_time = start.elapsed();
     let frames = match args.method {
         MethodChoice::Direct => {
-            println!(
+            say!(
                 "{} polygons, both views directly in {direct_time:.1?}",
                 geometry.polygons.len()
             );
@@ -56,7 +56,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
         method => {
             let start = std::time::Instant::now();
             let (frames, counts) = job.derived(method == MethodChoice::Minimal);
-            println!("{} in {:.1?}", drawn_line(&counts), start.elapsed());
+            say!("{} in {:.1?}", drawn_line(&counts), start.elapsed());
             compare(&frames.eyes, &direct);
             frames.eyes
         }
@@ -76,7 +76,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     for composite in &args.stereo {
         let file = args.out.join(format!("{}.png", composite.name()));
         composite.write(&file, &Views { left: &pictures[0], right: &pictures[1] })?;
-        println!("image {}", file.display());
+        say!("image {}", file.display());
     }
     Ok(OK)
 }
@@ -84,7 +84,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
 fn save(folder: &Path, name: &str, picture: &image::RgbImage) -> Result<(), Failure> {
     let file = folder.join(name);
     write_png(&file, picture)?;
-    println!("image {}", file.display());
+    say!("image {}", file.display());
     Ok(())
 }
 
@@ -98,7 +98,7 @@ fn compare(frames: &[Frame; 2], direct: &[Frame; 2]) {
     for eye in Eye::BOTH {
         let (frame, direct) = (&frames[eye as usize], &direct[eye as usize]);
         if (frame.width, frame.height) != (direct.width, direct.height) {
-            println!(
+            say!(
                 "{} view: arranged for its display, not compared with direct rendering",
                 eye.name()
             );
@@ -113,7 +113,7 @@ fn compare(frames: &[Frame; 2], direct: &[Frame; 2]) {
             Some(psnr) if psnr.is_finite() => format!("{psnr:.1} dB"),
             _ => "identical".into(),
         };
-        println!(
+        say!(
             "{} view against direct rendering: {quality}, {colour} of {pixels} colours, {id} ids differ, {gaps} gaps",
             eye.name()
         );
