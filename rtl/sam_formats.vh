@@ -1,6 +1,6 @@
 // Number formats of the SAM hardware: widths in bits, codes, limits and filter tables.
 // Generated from golden/src/{config,formats}.rs and golden/src/pipeline/ by
-//     cargo run -p wheatstone-golden --bin sam-formats > rtl/sam_formats.vh
+//     cargo run -p wheatstone-testbench -- generate
 // Do not edit.
 //
 // SUB stands for the parameter SUBPIXEL_BITS, AA for ANTIALIAS.

@@ -60,8 +60,8 @@ pub struct Options {
     pub arrangement: Arrangement,
     /// Primary and secondary go to one display instead of one each.
     pub single: bool,
-    /// The system tests no edges: spans are not extended, polygons of more than three
-    /// corners are not accepted.
+    /// The system tests no edges: there is none to lend, anti-aliasing widens no span, and depth
+    /// is sampled.
     pub minimal: bool,
 }
 

@@ -1,10 +1,11 @@
 //! `wheatstone render`.
 
 use super::*;
+use crate::quality::Quality;
 use crate::regression::drawn_line;
 use wheatstone_golden::formats::{Eye, Rgba};
 use wheatstone_golden::frame::{Frame, NO_ID};
-use wheatstone_golden::picture::{colour_picture, id_picture, psnr, write_png, Composite, Views};
+use wheatstone_golden::picture::{colour_picture, id_picture, write_png, Composite, Views};
 
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
@@ -57,7 +58,11 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
             let start = std::time::Instant::now();
             let (frames, counts) = job.derived(method == MethodChoice::Minimal);
             say!("{} in {:.1?}", drawn_line(&counts), start.elapsed());
-            compare(&frames.eyes, &direct);
+            for (eye, (frame, direct)) in Eye::BOTH.into_iter().zip(frames.eyes.iter().zip(&direct))
+            {
+                let quality = Quality::of(&job, eye, frame, direct);
+                say!("{} view against direct rendering: {quality}", eye.name());
+            }
             frames.eyes
         }
     };
@@ -91,31 +96,4 @@ fn save(folder: &Path, name: &str, picture: &image::RgbImage) -> Result<(), Fail
 fn picture(frame: &Frame) -> image::RgbImage {
     let colours: Vec<Rgba> = frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
     colour_picture(frame.width, frame.height, &colours)
-}
-
-/// Says how far a derived pair is from direct rendering.
-fn compare(frames: &[Frame; 2], direct: &[Frame; 2]) {
-    for eye in Eye::BOTH {
-        let (frame, direct) = (&frames[eye as usize], &direct[eye as usize]);
-        if (frame.width, frame.height) != (direct.width, direct.height) {
-            say!(
-                "{} view: arranged for its display, not compared with direct rendering",
-                eye.name()
-            );
-            continue;
-        }
-        let pixels = direct.colour.len();
-        let differ = |f: &dyn Fn(usize) -> bool| (0..pixels).filter(|&n| f(n)).count();
-        let colour = differ(&|n| frame.colour[n] != direct.colour[n]);
-        let id = differ(&|n| frame.id[n] != direct.id[n]);
-        let gaps = differ(&|n| frame.id[n] == NO_ID && direct.id[n] != NO_ID);
-        let quality = match psnr(&picture(frame), &picture(direct)) {
-            Some(psnr) if psnr.is_finite() => format!("{psnr:.1} dB"),
-            _ => "identical".into(),
-        };
-        say!(
-            "{} view against direct rendering: {quality}, {colour} of {pixels} colours, {id} ids differ, {gaps} gaps",
-            eye.name()
-        );
-    }
 }
