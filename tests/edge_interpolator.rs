@@ -84,7 +84,11 @@ macro_rules! compare {
             };
             let output = model.step(&beat);
             let expected: $value = at(plane, [x, y], $f);
-            assert_eq!(output.value, expected, "beat {n} at ({x}, {y}) of {plane:?}, tilt {}", $tilt);
+            assert_eq!(
+                output.value, expected,
+                "beat {n} at ({x}, {y}) of {plane:?}, tilt {}",
+                $tilt
+            );
             assert_eq!((output.a.raw(), output.b.raw(), output.low), (a, b, low));
         }
     }};

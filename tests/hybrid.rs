@@ -52,7 +52,12 @@ fn polygons(seed: u64, config: &Config, count: u32) -> Vec<Polygon> {
 }
 
 /// Colour, depth and id of a view pixel, found on its display by the definition of the arrangement.
-fn seen(frame: &Frame, arrangement: Arrangement, eye: Eye, [x, y]: [i64; 2]) -> ([u8; 3], u32, u32) {
+fn seen(
+    frame: &Frame,
+    arrangement: Arrangement,
+    eye: Eye,
+    [x, y]: [i64; 2],
+) -> ([u8; 3], u32, u32) {
     let [width, height] = SIZE.map(i64::from);
     let right = eye == Eye::Right;
     let [column, row] = match arrangement {

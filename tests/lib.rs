@@ -106,9 +106,8 @@ pub fn said(command: &mut Command) -> (bool, String) {
 pub fn modules() -> Vec<String> {
     let entries = fs::read_dir(rtl()).expect("the folder rtl");
     let names = entries.map(|entry| entry.expect("an entry").file_name());
-    let mut modules: Vec<String> = names
-        .filter_map(|name| Some(name.to_str()?.strip_suffix(".v")?.to_owned()))
-        .collect();
+    let mut modules: Vec<String> =
+        names.filter_map(|name| Some(name.to_str()?.strip_suffix(".v")?.to_owned())).collect();
     modules.sort();
     modules
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use walk::{each_derived, exact, walk, Fraction};
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
-use wheatstone_golden::interface::{Beat as _, Table};
+use wheatstone_golden::interface::Table;
 use wheatstone_golden::pipeline::{Pixel, PrimaryBeat};
 use wheatstone_golden::random::Class;
 use wheatstone_golden::record::Recording;

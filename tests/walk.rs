@@ -76,8 +76,7 @@ pub fn each_derived(
     count: usize,
     mut check: impl FnMut(&Planner, &Polygon, &Derived),
 ) {
-    let planner =
-        Planner::new(*config, Options { cost_rule: false, ..options }, width, height);
+    let planner = Planner::new(*config, Options { cost_rule: false, ..options }, width, height);
     for &class in classes {
         let mut triangles = Triangles::new(class as u64 + 5, planner.formats, width, height);
         let mut derived = 0;

@@ -36,7 +36,12 @@ fn run(planner: &Planner, walk: &walk::Walk) -> Vec<YPixel> {
 }
 
 /// Where an arrangement shows view pixel (x, y), by definition.
-fn shown(arrangement: Arrangement, eye: Eye, [x, y]: [i64; 2], [width, height]: [i64; 2]) -> [i64; 2] {
+fn shown(
+    arrangement: Arrangement,
+    eye: Eye,
+    [x, y]: [i64; 2],
+    [width, height]: [i64; 2],
+) -> [i64; 2] {
     let right = eye == Eye::Right;
     match arrangement {
         Arrangement::Normal => [x, y],
@@ -94,47 +99,54 @@ fn every_arrangement_shows_pixels_where_its_definition_says() {
 fn a_tilted_y_follows_the_map_within_the_error_bound() {
     let config = Config { antialias: false, ..Config::FULL };
     let mut moved = [0u32; 3];
-    each_derived(&config, Options::new(&config), [200, 150], &Class::ALL, 40, |planner, level, _| {
-        // Turn the head: each vertex of the right view moves up by a part of its disparity.
-        let mut polygon = level.clone();
-        for vertex in &mut polygon.vertices {
-            vertex.y[1] += (vertex.x[0] - vertex.x[1]) / 4;
-        }
-        let plan = planner.plan(&polygon);
-        let wheatstone_golden::setup::Plan::Derived(derived) = plan else { return };
-        let f = &planner.formats;
-        let walk = walk(planner, &polygon, &derived);
-        let pixels = run(planner, &walk);
-        let position = |n: usize| {
-            let b = &walk.beats[n];
-            let setup = &walk.records[b.part].0;
-            setup.y_view.raw() + b.rows * setup.y_row.raw() + b.steps * setup.y_slant.raw()
-        };
-        let mut row_start = 0;
-        for (n, (pixel, b)) in pixels.iter().zip(&walk.beats).enumerate() {
-            let setup = &walk.records[b.part].0;
-            let raw = position(n);
-            let v = raw >> FRACTION_BITS;
-            let y = setup.y_start.raw() + setup.y_step.raw() * v;
-            assert_eq!(pixel.y, Coordinate::wrap(y, f));
-            assert_eq!(pixel.inside, (0..150).contains(&v));
-            let movement = match b.op {
-                Op::Load => 0,
-                Op::Row => v - row_start - (setup.y_row.raw() >> FRACTION_BITS),
-                _ => v - (position(n - 1) >> FRACTION_BITS),
-            };
-            assert_eq!(pixel.r#move.raw(), movement, "beat {n} {b:?} of {polygon:?}");
-            moved[(movement + 1) as usize] += 1;
-            let goes_on = walk.beats.get(n + 1).is_some_and(|next| {
-                next.op == Op::Step && position(n + 1) >> FRACTION_BITS == v
-            });
-            assert_eq!(pixel.end, !goes_on);
-            if b.save {
-                row_start = v;
+    each_derived(
+        &config,
+        Options::new(&config),
+        [200, 150],
+        &Class::ALL,
+        40,
+        |planner, level, _| {
+            // Turn the head: each vertex of the right view moves up by a part of its disparity.
+            let mut polygon = level.clone();
+            for vertex in &mut polygon.vertices {
+                vertex.y[1] += (vertex.x[0] - vertex.x[1]) / 4;
             }
-            let [_, exact] = exact(&polygon, derived.primary, b.at, f);
-            assert!(exact.is_near(raw, 1 + b.rows + b.steps), "beat {n} {b:?} of {polygon:?}");
-        }
-    });
+            let plan = planner.plan(&polygon);
+            let wheatstone_golden::setup::Plan::Derived(derived) = plan else { return };
+            let f = &planner.formats;
+            let walk = walk(planner, &polygon, &derived);
+            let pixels = run(planner, &walk);
+            let position = |n: usize| {
+                let b = &walk.beats[n];
+                let setup = &walk.records[b.part].0;
+                setup.y_view.raw() + b.rows * setup.y_row.raw() + b.steps * setup.y_slant.raw()
+            };
+            let mut row_start = 0;
+            for (n, (pixel, b)) in pixels.iter().zip(&walk.beats).enumerate() {
+                let setup = &walk.records[b.part].0;
+                let raw = position(n);
+                let v = raw >> FRACTION_BITS;
+                let y = setup.y_start.raw() + setup.y_step.raw() * v;
+                assert_eq!(pixel.y, Coordinate::wrap(y, f));
+                assert_eq!(pixel.inside, (0..150).contains(&v));
+                let movement = match b.op {
+                    Op::Load => 0,
+                    Op::Row => v - row_start - (setup.y_row.raw() >> FRACTION_BITS),
+                    _ => v - (position(n - 1) >> FRACTION_BITS),
+                };
+                assert_eq!(pixel.r#move.raw(), movement, "beat {n} {b:?} of {polygon:?}");
+                moved[(movement + 1) as usize] += 1;
+                let goes_on = walk.beats.get(n + 1).is_some_and(|next| {
+                    next.op == Op::Step && position(n + 1) >> FRACTION_BITS == v
+                });
+                assert_eq!(pixel.end, !goes_on);
+                if b.save {
+                    row_start = v;
+                }
+                let [_, exact] = exact(&polygon, derived.primary, b.at, f);
+                assert!(exact.is_near(raw, 1 + b.rows + b.steps), "beat {n} {b:?} of {polygon:?}");
+            }
+        },
+    );
     assert!(moved.iter().all(|&count| count > 100), "movements -1, 0, 1: {moved:?}");
 }

@@ -48,10 +48,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let direct_time = start.elapsed();
     let frames = match args.method {
         MethodChoice::Direct => {
-            say!(
-                "{} polygons, both views directly in {direct_time:.1?}",
-                geometry.polygons.len()
-            );
+            say!("{} polygons, both views directly in {direct_time:.1?}", geometry.polygons.len());
             direct
         }
         method => {
