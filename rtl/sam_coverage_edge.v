@@ -17,6 +17,12 @@ module sam_coverage_edge #(
     localparam S = `SAM_SLOPE_BITS(SUBPIXEL_BITS);
     localparam W = S + 3;
 
+    generate
+        if (SUBPIXEL_BITS != 4 && SUBPIXEL_BITS != 8) begin : g_illegal
+            sam_coverage_edge_SUBPIXEL_BITS_must_be_4_or_8 u_error ();
+        end
+    endgenerate
+
     // No sample differs from the centre by more than 6 * 2^(S-1), so that many bits are enough:
     // a value that does not fit is replaced by one with its sign that is at least as large.
     wire [E-1:0]        full    = {value_i, low_i};

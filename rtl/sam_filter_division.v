@@ -12,6 +12,9 @@ module sam_filter_division #(
     output wire [7:0]                 quotient_o
 );
     generate
+        if (FILTER_TERMS != 0 && FILTER_TERMS != 2 && FILTER_TERMS != 3) begin : g_illegal
+            sam_filter_division_FILTER_TERMS_must_be_0_or_2_or_3 u_error ();
+        end
         if (FILTER_TERMS == 0) begin : g_exact
             localparam B = `SAM_RECIPROCAL_BITS;
             localparam [32*B-1:0] RECIPROCAL = `SAM_RECIPROCAL;

@@ -72,7 +72,12 @@ impl Front {
 
     /// Takes a beat, with its record if it is a `LOAD`; gives the beats whose end is known now.
     #[inline]
-    pub fn step(&mut self, beat: &PrimaryBeat, setup: &Setup, observer: &mut impl Observer) -> Step {
+    pub fn step(
+        &mut self,
+        beat: &PrimaryBeat,
+        setup: &Setup,
+        observer: &mut impl Observer,
+    ) -> Step {
         let (op, save, last) = (beat.op, beat.save, beat.last);
         if op == Op::Load {
             self.polygon = *setup;

@@ -141,12 +141,7 @@ impl Hybrid {
 
     /// Stage S2: the interpolants at the secondary pixel, and what is gathered in it.
     #[inline]
-    fn stage2<O: Observer>(
-        &mut self,
-        beat: &Located,
-        output: &mut impl Output,
-        observer: &mut O,
-    ) {
+    fn stage2<O: Observer>(&mut self, beat: &Located, output: &mut impl Output, observer: &mut O) {
         match beat.beat.op {
             Op::Load => {
                 let r = &self.record;
@@ -306,7 +301,13 @@ impl Hybrid {
 
     /// The primary pixel of a beat, if it is drawn.
     #[inline]
-    fn primary_pixel(&self, beat: &PrimaryBeat, eye: Eye, mask: i64, centre: bool) -> Option<Pixel> {
+    fn primary_pixel(
+        &self,
+        beat: &PrimaryBeat,
+        eye: Eye,
+        mask: i64,
+        centre: bool,
+    ) -> Option<Pixel> {
         (!self.void && mask != 0).then(|| Pixel {
             eye,
             x: beat.x,

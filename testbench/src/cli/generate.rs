@@ -26,11 +26,11 @@ pub(super) fn run(args: &GenerateArgs) -> Result<u8, Failure> {
             continue;
         }
         if args.check {
-            println!("{path}: not current; run: wheatstone generate");
+            say!("{path}: not current; run: wheatstone generate");
             status = MISMATCH;
         } else {
             write_file(&file, renewed.as_bytes())?;
-            println!("{path}: written");
+            say!("{path}: written");
         }
     }
     Ok(status)

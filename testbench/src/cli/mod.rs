@@ -2,6 +2,14 @@
 //!
 //! Exit status: 0 all compared and equal, 1 mismatch, 2 bad input, 3 a tool is missing.
 
+/// Prints a line. A reader that has gone away, as `head` does, is no reason to fail.
+macro_rules! say {
+    ($($argument:tt)*) => {{
+        use std::io::Write;
+        let _ = writeln!(std::io::stdout(), $($argument)*);
+    }};
+}
+
 mod cosim;
 mod generate;
 mod info;

@@ -48,20 +48,17 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let direct_time = start.elapsed();
     let frames = match args.method {
         MethodChoice::Direct => {
-            println!(
-                "{} polygons, both views directly in {direct_time:.1?}",
-                geometry.polygons.len()
-            );
+            say!("{} polygons, both views directly in {direct_time:.1?}", geometry.polygons.len());
             direct
         }
         method => {
             let start = std::time::Instant::now();
             let (frames, counts) = job.derived(method == MethodChoice::Minimal);
-            println!("{} in {:.1?}", drawn_line(&counts), start.elapsed());
+            say!("{} in {:.1?}", drawn_line(&counts), start.elapsed());
             for (eye, (frame, direct)) in Eye::BOTH.into_iter().zip(frames.eyes.iter().zip(&direct))
             {
                 let quality = Quality::of(&job, eye, frame, direct);
-                println!("{} view against direct rendering: {quality}", eye.name());
+                say!("{} view against direct rendering: {quality}", eye.name());
             }
             frames.eyes
         }
@@ -81,7 +78,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     for composite in &args.stereo {
         let file = args.out.join(format!("{}.png", composite.name()));
         composite.write(&file, &Views { left: &pictures[0], right: &pictures[1] })?;
-        println!("image {}", file.display());
+        say!("image {}", file.display());
     }
     Ok(OK)
 }
@@ -89,7 +86,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
 fn save(folder: &Path, name: &str, picture: &image::RgbImage) -> Result<(), Failure> {
     let file = folder.join(name);
     write_png(&file, picture)?;
-    println!("image {}", file.display());
+    say!("image {}", file.display());
     Ok(())
 }
 
