@@ -7,10 +7,13 @@ use crate::settings::{SettingError, Settings};
 use std::fmt::Write;
 use std::path::Path;
 use thiserror::Error;
+use wheatstone_golden::config::Config;
 use wheatstone_golden::document::interface_tables;
 use wheatstone_golden::formats::{Eye, Formats};
 use wheatstone_golden::header::formats_header;
+use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::scene::{self, SceneError};
+use wheatstone_golden::setup::{Options, Plan, Planner, Row};
 use wheatstone_golden::targets::Target;
 
 /// A file that is generated.
@@ -20,7 +23,7 @@ pub enum Generated {
     Header,
     /// The page of a unit or system: its interface.
     Page(Target),
-    /// `docs/theory.md`: how far pictures are from direct rendering.
+    /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
     Theory,
 }
 
@@ -69,7 +72,10 @@ impl Generated {
             Generated::Page(target) => {
                 self.between(present, "interface", &interface_tables(target))
             }
-            Generated::Theory => self.between(present, "quality", &quality_table(workspace)?),
+            Generated::Theory => {
+                let text = self.between(present, "cost", &cost_table())?;
+                self.between(&text, "quality", &quality_table(workspace)?)
+            }
         }
     }
 
@@ -81,6 +87,47 @@ impl Generated {
         });
         parts.ok_or_else(|| GenerateError::Marks { path: self.path(), begin })
     }
+}
+
+/// Random triangles of each class in the table of costs, and the views they are drawn in.
+const TRIANGLES: usize = 10_000;
+const VIEW: [u32; 2] = [160, 120];
+
+fn cost_table() -> String {
+    let mut table = String::from(
+        "\n| class | drawn | derived | with the cost rule | beats a covered pixel |\n| --- | --- | --- | --- | --- |\n",
+    );
+    let config = Config { antialias: false, tilt: false, ..Config::FULL };
+    let planner = |cost_rule| {
+        let options = Options { cost_rule, ..Options::new(&config) };
+        Planner::new(config, options, VIEW[0], VIEW[1])
+    };
+    let [free, ruled] = [planner(false), planner(true)];
+    for class in Class::ALL {
+        let mut triangles = Triangles::new(class as u64 + 77, free.formats, VIEW[0], VIEW[1]);
+        let (mut drawn, mut derived, mut with_rule, mut beats, mut covered) = (0, 0, 0, 0, 0);
+        for _ in 0..TRIANGLES {
+            let polygon = triangles.triangle(class);
+            drawn += u32::from(!matches!(free.plan(&polygon), Plan::Nothing));
+            with_rule += u32::from(matches!(ruled.plan(&polygon), Plan::Derived(_)));
+            let Plan::Derived(plan) = free.plan(&polygon) else { continue };
+            derived += 1;
+            beats += plan.rows.iter().map(Row::len).sum::<u64>();
+            let rows = plan.primary_view.monocular_rows(VIEW[0], VIEW[1]);
+            covered += rows.map(|row| row.len()).sum::<u64>();
+        }
+        let share = |n: u32| 100.0 * f64::from(n) / f64::from(drawn);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            table,
+            "| {} | {drawn} | {:.1} % | {:.1} % | {:.2} |",
+            class.name(),
+            share(derived),
+            share(with_rule),
+            beats as f64 / covered as f64
+        );
+    }
+    table
 }
 
 /// What is rendered for the theory page, as `wheatstone render` is told.
