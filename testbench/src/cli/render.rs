@@ -42,6 +42,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
     let name = args.common.scene.as_deref().unwrap_or("teapot");
     let geometry = args.common.geometry(name, args.common.size, &settings)?;
+    // Before the work, so that a folder that cannot be made costs none.
+    std::fs::create_dir_all(&args.out)
+        .map_err(|source| WriteError { file: args.out.clone(), source })?;
     let job = job(&settings, &geometry, settings.options);
     let start = std::time::Instant::now();
     let direct = job.direct();
@@ -63,8 +66,6 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
             frames.eyes
         }
     };
-    std::fs::create_dir_all(&args.out)
-        .map_err(|source| WriteError { file: args.out.clone(), source })?;
     let pictures = [&frames[0], &frames[1]].map(picture);
     for eye in Eye::BOTH {
         let frame = &frames[eye as usize];
