@@ -17,7 +17,7 @@
 // PixelX: signed integer
 `define SAM_PIXEL_X_BITS(SUB) ((SUB) == 8 ? 13 : 11)
 // Coordinate: unsigned integer
-`define SAM_COORDINATE_BITS(SUB) ((SUB) == 8 ? 12 : 10)
+`define SAM_COORDINATE_BITS(SUB) ((SUB) == 8 ? 12 : 11)
 // DisplayStep: signed integer
 `define SAM_DISPLAY_STEP_BITS 3
 // Move: signed integer
