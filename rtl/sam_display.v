@@ -43,7 +43,12 @@ module sam_display #(
     // never drawn.
     wire [C-1:0] from_right = width_i + ~point_x_i[C-1:0];
     wire [C-1:0] column     = point_mirror_i ? from_right : point_x_i[C-1:0];
-    wire         unused     = &{1'b0, point_x_i[P-1:C]};
+
+    generate
+        if (P > C) begin : g_sign
+            wire unused = &{1'b0, point_x_i[P-1:C]};
+        end
+    endgenerate
 
     assign point_ready_o = ~valid_q | pixel_ready_i;
 
