@@ -27,9 +27,10 @@ pub fn builder() -> Builder {
     Builder::new(tools, workspace().join(Builder::CACHE))
 }
 
-/// The same for models that are run once: quickly built, slow.
+/// A builder of models that are run once: quickly built, slow.
 pub fn quick_builder() -> Builder {
-    builder().unoptimised()
+    let tools = Toolchain::find().unwrap_or_else(|missing| panic!("{missing}"));
+    Builder::new(tools, workspace().join("target/wheatstone/quick")).unoptimised()
 }
 
 /// A folder that goes when it is dropped.
@@ -106,9 +107,8 @@ pub fn said(command: &mut Command) -> (bool, String) {
 pub fn modules() -> Vec<String> {
     let entries = fs::read_dir(rtl()).expect("the folder rtl");
     let names = entries.map(|entry| entry.expect("an entry").file_name());
-    let mut modules: Vec<String> = names
-        .filter_map(|name| Some(name.to_str()?.strip_suffix(".v")?.to_owned()))
-        .collect();
+    let mut modules: Vec<String> =
+        names.filter_map(|name| Some(name.to_str()?.strip_suffix(".v")?.to_owned())).collect();
     modules.sort();
     modules
 }

@@ -181,11 +181,14 @@ pub enum ToolError {
     },
 }
 
-/// First non-empty line that a program prints on its standard output.
+/// First non-empty line that a program prints, on its standard output if there is one: vvp of
+/// Icarus 11 says its version on the standard error.
 fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Option<String> {
     let output = Command::new(program).args(arguments).env("PATH", path).output().ok()?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
+    [output.stdout, output.stderr].iter().find_map(|bytes| {
+        let text = String::from_utf8_lossy(bytes);
+        text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
+    })
 }
 
 /// The folders in which programs are looked for.

@@ -2,14 +2,14 @@
 
 use super::run::{MemoryFault, Ran};
 use super::{Plan, RegressionError, Waves};
-use crate::{waves, Fault, Library, Mismatch, Outcome, Stalls, TraceWindow};
+use crate::{waves, Fault, Library, Mismatch, Outcome, Probe, Stalls, TraceWindow};
 use serde::Serialize;
 use std::fmt;
 use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use wheatstone_golden::formats::Eye;
-use wheatstone_golden::interface::Beat;
+use wheatstone_golden::interface::{Beat, Direction};
 use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::pipeline::{Mode, Op, Pixel, PrimaryBeat, Request, Setup};
 use wheatstone_golden::record::Recording;
@@ -103,16 +103,24 @@ impl Failure {
         };
         match &ran.outcome {
             Outcome::Mismatch(mismatch) => {
-                failure.mismatch(target, mismatch, ran.recording.as_deref())
+                let probes = library.probes().iter();
+                let own = |p: &&Probe| mismatch.place.instance.as_ref() == Some(&p.instance);
+                let mut streams = probes.filter(own).flat_map(|p| &p.streams);
+                let stream = streams.find(|s| s.name == mismatch.place.stream);
+                let direction = stream.map_or(Direction::Output, |s| s.direction);
+                failure.mismatch(mismatch, direction, ran.recording.as_deref());
             }
             Outcome::Hung(hung) => failure.cycle = Some(hung.cycle),
             Outcome::Passed(_) => {}
         }
-        // A mismatch of streams comes first: what is stale or wrong in memory follows from it.
-        if matches!(ran.outcome, Outcome::Passed(_)) {
-            if let Some(fault) = ran.memory.first() {
-                failure.memory(fault);
-            }
+        // All pixels before the first mismatch were right, so a stale read is its cause; a wrong
+        // frame buffer is its consequence.
+        let fault = match &ran.outcome {
+            Outcome::Passed(_) => ran.memory.first(),
+            _ => ran.memory.iter().find(|fault| matches!(fault, MemoryFault::Stale { .. })),
+        };
+        if let Some(fault) = fault {
+            failure.memory(fault);
         }
         if plan.waves != Waves::Never {
             if let Some(cycle) = failure.cycle {
@@ -126,10 +134,16 @@ impl Failure {
         Ok(failure)
     }
 
-    fn mismatch(&mut self, target: Target, mismatch: &Mismatch, recording: Option<&Recording>) {
+    fn mismatch(
+        &mut self,
+        mismatch: &Mismatch,
+        direction: Direction,
+        recording: Option<&Recording>,
+    ) {
         self.cycle = Some(mismatch.cycle);
         self.stream = Some(mismatch.place.stream.into());
-        if let Some(instance) = &mismatch.place.instance {
+        // What comes into a unit wrong is not the unit's fault.
+        if let (Some(instance), Direction::Output) = (&mismatch.place.instance, direction) {
             let name = instance.split('.').next_back().unwrap_or(instance);
             self.unit = name.strip_prefix("u_").unwrap_or(name).into();
         }
@@ -153,7 +167,6 @@ impl Failure {
             (_, Some(instance)) => recording.and_then(|r| locate(r, instance, mismatch.beat, self)),
             _ => None,
         };
-        let _ = target;
     }
 
     fn memory(&mut self, fault: &MemoryFault) {
@@ -162,6 +175,7 @@ impl Failure {
                 self.what = format!("background read {read} gave a stale value");
                 self.unit = "slot_queue".into();
                 self.stream = Some("response".into());
+                self.field = None;
                 self.expected = Some(format!("{expected:?}"));
                 self.actual = Some(format!("{actual:?}"));
             }
