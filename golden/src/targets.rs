@@ -294,8 +294,7 @@ pub fn probes(target: Target, config: &Config) -> Vec<Probe> {
         Unit::Red | Unit::Green | Unit::Blue => target == Target::Hybrid && config.integrated,
         _ => target == Target::Hybrid,
     };
-    let mut probes: Vec<Probe> =
-        Unit::ALL.into_iter().filter(present).filter_map(probe).collect();
+    let mut probes: Vec<Probe> = Unit::ALL.into_iter().filter(present).filter_map(probe).collect();
     // Slot queue and memory stand before blending.
     if let Some(blend) = probes.iter().position(|probe| probe.unit == Unit::Blend) {
         let stream = Stream::input::<blend::BlendPixel>("pixel", f);

@@ -2,7 +2,7 @@
 
 use super::run::{MemoryFault, Ran};
 use super::{Plan, RegressionError, Waves};
-use crate::{waves, Fault, Library, Mismatch, Outcome, Probe, Stalls, TraceWindow};
+use crate::{waves, Fault, Library, Mismatch, Outcome, Place, Probe, Stalls, TraceWindow};
 use serde::Serialize;
 use std::fmt;
 use std::fs;
@@ -103,12 +103,11 @@ impl Failure {
         };
         match &ran.outcome {
             Outcome::Mismatch(mismatch) => {
-                let probes = library.probes().iter();
-                let own = |p: &&Probe| mismatch.place.instance.as_ref() == Some(&p.instance);
-                let mut streams = probes.filter(own).flat_map(|p| &p.streams);
-                let stream = streams.find(|s| s.name == mismatch.place.stream);
-                let direction = stream.map_or(Direction::Output, |s| s.direction);
-                failure.mismatch(mismatch, direction, ran.recording.as_deref());
+                failure.mismatch(mismatch, ran.recording.as_deref());
+                // What comes into a unit wrong is not the unit's fault.
+                if goes_in(library, &mismatch.place) {
+                    failure.unit = target.name().into();
+                }
             }
             Outcome::Hung(hung) => failure.cycle = Some(hung.cycle),
             Outcome::Passed(_) => {}
@@ -134,16 +133,10 @@ impl Failure {
         Ok(failure)
     }
 
-    fn mismatch(
-        &mut self,
-        mismatch: &Mismatch,
-        direction: Direction,
-        recording: Option<&Recording>,
-    ) {
+    fn mismatch(&mut self, mismatch: &Mismatch, recording: Option<&Recording>) {
         self.cycle = Some(mismatch.cycle);
         self.stream = Some(mismatch.place.stream.into());
-        // What comes into a unit wrong is not the unit's fault.
-        if let (Some(instance), Direction::Output) = (&mismatch.place.instance, direction) {
+        if let Some(instance) = &mismatch.place.instance {
             let name = instance.split('.').next_back().unwrap_or(instance);
             self.unit = name.strip_prefix("u_").unwrap_or(name).into();
         }
@@ -187,6 +180,13 @@ impl Failure {
             }
         }
     }
+}
+
+/// Whether a stream is an input of a unit inside a system.
+fn goes_in(library: &Library, place: &Place) -> bool {
+    let of_unit = |probe: &&Probe| place.instance.as_ref() == Some(&probe.instance);
+    let mut streams = library.probes().iter().filter(of_unit).flat_map(|probe| &probe.streams);
+    streams.any(|s| s.name == place.stream && s.direction == Direction::Input)
 }
 
 fn location(
