@@ -1,6 +1,6 @@
 // Number formats of the SAM hardware: widths in bits, codes, limits and filter tables.
 // Generated from golden/src/{config,formats}.rs and golden/src/pipeline/ by
-//     cargo run -p wheatstone-golden --bin sam-formats > rtl/sam_formats.vh
+//     cargo run -p wheatstone-testbench -- generate
 // Do not edit.
 //
 // SUB stands for the parameter SUBPIXEL_BITS, AA for ANTIALIAS.
@@ -17,7 +17,7 @@
 // PixelX: signed integer
 `define SAM_PIXEL_X_BITS(SUB) ((SUB) == 8 ? 13 : 11)
 // Coordinate: unsigned integer
-`define SAM_COORDINATE_BITS(SUB) ((SUB) == 8 ? 12 : 10)
+`define SAM_COORDINATE_BITS(SUB) ((SUB) == 8 ? 12 : 11)
 // DisplayStep: signed integer
 `define SAM_DISPLAY_STEP_BITS 3
 // Move: signed integer

@@ -3,7 +3,7 @@
 //
 //   coverage, choice of colour and depth -> slot -> slot queue, blend -> redirect
 //
-// Latency: three clocks to `request`, three from `response` to `left` and `right`.
+// Latency: two clocks to `request`, two from `response` to `left` and `right`.
 // Reset: rst_i empties stages and queue; no data is reset.
 // Paper: section 5, figure 4.
 `include "sam_formats.vh"

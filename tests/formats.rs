@@ -2,6 +2,7 @@
 
 use std::fs;
 use wheatstone_golden::config::{Config, PARAMETERS};
+use wheatstone_golden::document::COMMAND;
 use wheatstone_golden::formats::{Formats, FRACTION_BITS};
 use wheatstone_golden::header::formats_header;
 use wheatstone_golden::targets::Target;
@@ -18,8 +19,7 @@ fn the_verilog_header_is_the_generated_one() {
     }
     assert!(
         committed == generated,
-        "rtl/sam_formats.vh is not what the formats say; write it again with\n    \
-         cargo run -p wheatstone-golden --bin sam-formats > rtl/sam_formats.vh"
+        "rtl/sam_formats.vh is not what the formats say; write it again with\n    {COMMAND}"
     );
 }
 
@@ -67,7 +67,7 @@ fn the_named_configurations_are_those_of_the_documentation() {
         ("DEPTH_INTERPOLATED", [1, 0, 1]),
         ("DEPTH_EXTERNAL", [0, 0, 0]),
         ("TILT", [0, 0, 1]),
-        ("SLOTS", [16, 2, 16]),
+        ("SLOTS", [16, 8, 16]),
     ];
     for (column, name) in Config::NAMES.into_iter().enumerate() {
         let config = Config::named(name).expect("it has a name");

@@ -46,8 +46,8 @@ fn the_sample_is_the_primary_pixel_nearest_the_centre() {
                 let inside = (0..400).filter(|&n| positions[n] >> FRACTION_BITS == column);
                 let nearest = inside.clone().map(distance).min();
                 let chosen = sample.data.raw() as usize;
-                // The rule asks only whether this beat is as near as the next would be, which may lie
-                // beyond the pixel: then there is no nearer one inside.
+                // The rule asks whether this beat is nearer than the one before: positions rise, so
+                // the last beat of which that is true is the nearest.
                 assert_eq!(
                     Some(distance(chosen)),
                     nearest,

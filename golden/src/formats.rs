@@ -34,7 +34,7 @@ pub const START_SLACK: i64 = 64;
 /// | `x_integer_bits` | 13 | 11 |
 /// | `edge_bits` | 34 | 26 |
 /// | `slope_bits` | 22 | 16 |
-/// | `coordinate_bits` | 12 | 10 |
+/// | `coordinate_bits` | 12 | 11 |
 /// | `max_size` | 2048 | 640 |
 /// | `guard_band` | 1024 | 192 |
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +70,7 @@ impl Formats {
             x_integer_bits: if wide { 13 } else { 11 },
             edge_bits: if wide { 34 } else { 26 },
             slope_bits: if wide { 22 } else { 16 },
-            coordinate_bits: if wide { 12 } else { 10 },
+            coordinate_bits: if wide { 12 } else { 11 },
             max_size: if wide { 2048 } else { 640 },
             guard_band: if wide { 1024 } else { 192 },
             mask_bits: if config.antialias { 16 } else { 1 },

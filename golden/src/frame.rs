@@ -126,7 +126,10 @@ impl Frames {
         }
         if self.tested || depth < frame.depth[index] {
             frame.colour[index] = pixel.rgba.rgb();
-            frame.id[index] = self.id;
+            // Alpha and area are used up in the colour, but tell whether there is any of it.
+            if factor(pixel.rgba.0[3], pixel.area, &self.formats) > 0 {
+                frame.id[index] = self.id;
+            }
             if pixel.write {
                 frame.depth[index] = depth;
             }

@@ -11,7 +11,7 @@ use std::fmt::Write;
 const PREAMBLE: &str = "\
 // Number formats of the SAM hardware: widths in bits, codes, limits and filter tables.
 // Generated from golden/src/{config,formats}.rs and golden/src/pipeline/ by
-//     cargo run -p wheatstone-golden --bin sam-formats > rtl/sam_formats.vh
+//     cargo run -p wheatstone-testbench -- generate
 // Do not edit.
 //
 // SUB stands for the parameter SUBPIXEL_BITS, AA for ANTIALIAS.
@@ -181,8 +181,12 @@ mod tests {
     fn the_committed_header_is_current() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../rtl/sam_formats.vh");
         let committed = std::fs::read_to_string(path).expect("rtl/sam_formats.vh can be read");
-        let hint = "run: cargo run -p wheatstone-golden --bin sam-formats > rtl/sam_formats.vh";
-        assert_eq!(committed, formats_header(), "{hint}");
+        assert_eq!(committed, formats_header(), "run: {}", crate::document::COMMAND);
+    }
+
+    #[test]
+    fn the_header_names_the_command_that_writes_it() {
+        assert!(PREAMBLE.contains(crate::document::COMMAND));
     }
 
     #[test]

@@ -12,6 +12,8 @@ extern crate alloc;
 pub mod config;
 #[cfg(feature = "std")]
 pub mod direct;
+#[cfg(feature = "std")]
+pub mod document;
 pub mod formats;
 #[cfg(feature = "std")]
 pub mod frame;

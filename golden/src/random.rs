@@ -19,7 +19,7 @@ pub enum Class {
     VerticalSliver,
     /// Wide and low, down to a tenth of a pixel.
     HorizontalSliver,
-    /// G1 between 1/29 and 1/10.
+    /// G1 between 1/29 and 0.15.
     ScaleNearZero,
     /// G1 a little under 1.
     ScaleNearOne,
@@ -149,7 +149,7 @@ impl Triangles {
             Class::Px2 => [1.0; 2],
             Class::VerticalSliver => [self.uniform(0.05, 4.0), 60.0],
             Class::HorizontalSliver => [60.0, self.uniform(0.05, 2.0)],
-            Class::ScaleNearZero => [40.0, 12.0],
+            Class::ScaleNearZero => [80.0, 12.0],
             Class::SteepShear => [40.0, 3.0],
             Class::Windows => [width.min(100.0), height.min(100.0)],
             Class::Generic | Class::Ties => [width / 3.0, height / 3.0],
@@ -169,7 +169,7 @@ impl Triangles {
     fn secondary(&mut self, class: Class, primary: &[[i64; 2]; 3]) -> [i64; 3] {
         let shift = self.uniform(-8.0, 8.0);
         let (scale, shear) = match class {
-            Class::ScaleNearZero => (self.uniform(1.0 / 29.0, 0.1), self.uniform(-0.5, 0.5)),
+            Class::ScaleNearZero => (self.uniform(1.0 / 29.0, 0.15), self.uniform(-0.5, 0.5)),
             Class::ScaleNearOne => (self.uniform(0.97, 1.0), self.uniform(-0.2, 0.2)),
             Class::ScaleOne => (1.0, [-1.0, -0.5, 0.0, 0.25, 1.0, 2.0][self.rng.usize(..6)]),
             Class::SteepShear => (self.uniform(0.2, 1.0), self.uniform(-12.0, 12.0)),

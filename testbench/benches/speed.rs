@@ -147,7 +147,14 @@ fn compare_golden(library: &Library) -> Result<f64, Failure> {
     println!("\nteapot, 640x480, {beats} beats              M beats/s   against Verilator");
     let ratio = verilator / golden;
     println!("Verilator hybrid                     {:>10.2}", rate(verilator));
-    println!("golden hybrid                        {:>10.2}{ratio:>10.1}  (target {GOLDEN_TARGET})", rate(golden));
-    println!("golden hybrid with setup and primary {:>10.2}{:>10.1}", rate(whole), verilator / whole);
+    println!(
+        "golden hybrid                        {:>10.2}{ratio:>10.1}  (target {GOLDEN_TARGET})",
+        rate(golden)
+    );
+    println!(
+        "golden hybrid with setup and primary {:>10.2}{:>10.1}",
+        rate(whole),
+        verilator / whole
+    );
     Ok(ratio)
 }

@@ -1,8 +1,9 @@
 //! A model in its test bench: reset, runs, waveforms.
 
+use crate::cursors::{Words, WORDS};
 use crate::drive::{Run, JUNK};
 use crate::job::{Job, JobError, Responder, TraceWindow};
-use crate::model::{Library, LoadError, Model, TraceError, Words, WORDS};
+use crate::model::{Library, LoadError, Model, TraceError};
 use crate::outcome::Outcome;
 use crate::stalls::Stalls;
 use wheatstone_golden::interface::Direction;
@@ -24,8 +25,6 @@ impl Bench {
     /// A new instance of a model, after a reset. The seed chooses the state it starts from and
     /// the length of the reset, 1 to 4 clocks.
     pub fn new(library: &Library, seed: u64) -> Result<Bench, LoadError> {
-        let layout = library.layout();
-        assert!(layout.streams.len() < 32 && layout.probed.len() <= 64, "too many streams");
         let model = Model::new(library, seed)?;
         let mut random = fastrand::Rng::with_seed(seed);
         let mut junk = Box::new([[0; WORDS]; JUNK]);

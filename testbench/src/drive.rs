@@ -17,8 +17,9 @@
 
 mod report;
 
+use crate::cursors::{Cursors, Words};
 use crate::job::{Job, Limits, Responder};
-use crate::model::{Cursors, Library, Model, Seen, Words};
+use crate::model::{Library, Model, Seen};
 use crate::outcome::Outcome;
 use report::payload;
 use wheatstone_golden::interface::{Direction, Table};

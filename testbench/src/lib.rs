@@ -5,12 +5,15 @@
 //! expected beats for the outputs, stall patterns. The [`Outcome`] is a pass with its counts,
 //! the first difference, or a model that hangs. [`cases`] says what the targets are fed;
 //! [`memory`] stands beside a system; [`pack`] writes and checks vector packs; [`waves`] makes
-//! views of waveforms; [`tools`] finds the programs that all this needs.
+//! views of waveforms; [`tools`] finds the programs that all this needs; [`generated`] has the files
+//! that are made from the definitions of the golden model.
 
 mod bench;
 pub mod cases;
 pub mod cli;
+mod cursors;
 mod drive;
+pub mod generated;
 mod job;
 mod layout;
 pub mod memory;
@@ -18,6 +21,7 @@ mod model;
 mod outcome;
 pub mod pack;
 mod ports;
+pub mod quality;
 pub mod regression;
 pub mod settings;
 mod shim;

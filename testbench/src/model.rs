@@ -5,13 +5,13 @@
 //! from, which [`Library::load`] compares. A [`Model`] owns its handle and is the only one to
 //! use it. Ports are reached through pointers into the model, which live as long as it does,
 //! with the widths that were checked when it was built. Rows of beats reach the model through
-//! [`Rows`], which knows the length that each stream reads.
+//! [`Cursors`], which know the length that each stream reads.
 #![allow(unsafe_code)]
 
+use crate::cursors::{Cursor, Cursors, Words};
 use crate::layout::{Layout, Probe, CLOCK, RESET};
 use libloading::Library as Object;
 use std::ffi::{c_char, c_int, c_void, CStr, CString};
-use std::marker::PhantomData;
 use std::ops::Range;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
@@ -28,22 +28,6 @@ type Handle = *mut c_void;
 struct Pair {
     seen: u64,
     wrong: u64,
-}
-
-/// Where a stream is in its table: shared with the shim, which moves it.
-#[repr(C)]
-pub(crate) struct Cursor {
-    row: *const u64,
-    end: *const u64,
-    stride: u64,
-    /// Beats taken.
-    pub done: u64,
-    /// Clocks on which a beat waited.
-    pub stalled: u64,
-    /// Cycle of the first beat.
-    pub first: u64,
-    /// Cycle of the last beat.
-    pub last: u64,
 }
 
 macro_rules! api {
@@ -96,6 +80,9 @@ pub enum LoadError {
         /// The file.
         path: PathBuf,
     },
+    /// The masks of a cycle have 31 bits for the module's streams and 64 for those watched.
+    #[error("module {0} has more than 31 streams, or more than 64 that are watched")]
+    TooManyStreams(String),
     /// The module stopped before the first clock, or a probe was not found in it.
     #[error("module {module} does not start: {message}")]
     Start {
@@ -137,6 +124,9 @@ impl Library {
         probes: &[Probe],
         layout: Layout,
     ) -> Result<Library, LoadError> {
+        if layout.streams.len() > 31 || layout.probed.len() > 64 {
+            return Err(LoadError::TooManyStreams(interface.module.to_owned()));
+        }
         let at = |source| LoadError::Object { path: path.to_owned(), source };
         // SAFETY: the object's initialisers are those of Verilator's runtime and the C++ library.
         let object = unsafe { Object::new(std::path::absolute(path).unwrap_or(path.to_owned())) }
@@ -168,71 +158,11 @@ impl Library {
     pub(crate) fn layout(&self) -> &Layout {
         &self.0.layout
     }
-}
 
-/// Most fields that a stream can have.
-pub(crate) const WORDS: usize = 256;
-
-/// Words for the longest row.
-pub(crate) type Words = [u64; WORDS];
-
-/// The cursors of all streams: the module's first, then those of the probes.
-pub(crate) struct Cursors<'a> {
-    cursors: Vec<Cursor>,
-    /// Rows that are not in a table, one a stream.
-    own: Vec<Vec<u64>>,
-    library: Library,
-    tables: PhantomData<&'a [u64]>,
-}
-
-impl<'a> Cursors<'a> {
-    /// Cursors at the beginning of the tables of all streams, which are given row after row.
-    pub fn new(library: &Library, tables: &[Option<&'a [u64]>]) -> Cursors<'a> {
-        let layout = library.layout();
-        let streams = layout.streams.iter().chain(layout.probed.iter().map(|(_, stream)| stream));
-        let own: Vec<Vec<u64>> = streams.map(|stream| vec![0; stream.width]).collect();
-        assert!(own.iter().all(|row| row.len() <= WORDS), "a stream has too many fields");
-        let table = |number: usize| tables.get(number).copied().flatten();
-        let cursor = |(number, own): (usize, &Vec<u64>)| {
-            let range = table(number).map(|table| {
-                assert!(table.len() % own.len().max(1) == 0, "a table has a broken row");
-                table.as_ptr_range()
-            });
-            Cursor {
-                row: range.as_ref().map_or(own.as_ptr(), |range| range.start),
-                end: range.as_ref().map_or(std::ptr::null(), |range| range.end),
-                stride: range.map_or(0, |_| own.len() as u64),
-                done: 0,
-                stalled: 0,
-                first: 0,
-                last: 0,
-            }
-        };
-        let cursors = own.iter().enumerate().map(cursor).collect();
-        Cursors { cursors, own, library: library.clone(), tables: PhantomData }
-    }
-
-    /// The row of a stream without a table, which `write` fills in, unless it declines.
-    pub fn fill(&mut self, stream: usize, write: impl FnOnce(&mut [u64]) -> bool) -> bool {
-        let filled = write(&mut self.own[stream]);
-        if self.cursors[stream].stride == 0 {
-            self.cursors[stream].row = self.own[stream].as_ptr();
-        }
-        filled
-    }
-
-    fn of(&mut self, model: &Model) -> *mut Cursor {
-        assert!(Arc::ptr_eq(&self.library.0, &model.library.0), "cursors of another model");
-        self.cursors.as_mut_ptr()
-    }
-}
-
-impl std::ops::Index<usize> for Cursors<'_> {
-    type Output = Cursor;
-
+    /// Whether both are the same.
     #[inline]
-    fn index(&self, stream: usize) -> &Cursor {
-        &self.cursors[stream]
+    pub(crate) fn is(&self, other: &Library) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
@@ -378,7 +308,7 @@ impl Model {
         cursors: &mut Cursors<'_>,
         words: &Words,
     ) -> Seen {
-        let (api, cursors) = (&self.library.0.api, cursors.of(self));
+        let (api, cursors) = (&self.library.0.api, cursors.of(&self.library));
         let run = if self.window.contains(&cycle) { api.cycle_traced } else { api.cycle };
         // SAFETY: there is a cursor for every stream of this model; each is at a whole row of
         // its stream, or at the end of its table, and the shim keeps it so. No row is longer
@@ -391,7 +321,7 @@ impl Model {
     /// Compares the beats taken on those streams of the probes that are `watched`.
     #[inline]
     pub(crate) fn probe(&self, cycle: u64, watched: u64, cursors: &mut Cursors<'_>) -> Seen {
-        let cursors = cursors.of(self);
+        let cursors = cursors.of(&self.library);
         // SAFETY: as in `cycle`; of the model nothing is changed.
         let Pair { seen, wrong } =
             unsafe { (self.library.0.api.probe)(self.handle.as_ptr(), cycle, watched, cursors) };

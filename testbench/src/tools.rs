@@ -181,12 +181,11 @@ pub enum ToolError {
     },
 }
 
-/// First non-empty line that a program prints, on its standard output if there is one: vvp of
-/// Icarus 11 says its version on the standard error.
+/// First non-empty line that a program prints on its standard output, or else on standard error.
 fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Option<String> {
     let output = Command::new(program).args(arguments).env("PATH", path).output().ok()?;
-    [output.stdout, output.stderr].iter().find_map(|bytes| {
-        let text = String::from_utf8_lossy(bytes);
+    [output.stdout, output.stderr].iter().find_map(|text| {
+        let text = String::from_utf8_lossy(text);
         text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
     })
 }

@@ -6,7 +6,7 @@ use common::*;
 use std::fs;
 use wheatstone_golden::interface::Interface;
 use wheatstone_testbench::waves::{write_views, View, ViewFiles, WaveError};
-use wheatstone_testbench::{Bench, Job, Probe, TraceWindow};
+use wheatstone_testbench::{Bench, Job, Outcome, Pattern, Probe, Stalls, TraceWindow};
 
 /// Runs a module with a trace of cycles 90 to 130 and writes the views.
 fn traced(folder: &std::path::Path, interface: &Interface, units: &[Probe]) -> ViewFiles {
@@ -22,7 +22,7 @@ fn traced(folder: &std::path::Path, interface: &Interface, units: &[Probe]) -> V
     let outcome = bench.run(&job).unwrap();
     drop(bench);
     let marker = match outcome {
-        wheatstone_testbench::Outcome::Mismatch(mismatch) => Some(mismatch.cycle),
+        Outcome::Mismatch(mismatch) => Some(mismatch.cycle),
         _ => None,
     };
     let marker = marker.map(|cycle| (cycle, "first mismatch"));
@@ -95,6 +95,30 @@ fn an_unfinished_or_empty_dump_is_refused() {
     let nowhere = TraceWindow { path: folder.path().join("no/x.fst"), ..window };
     let error = bench.trace(&nowhere).unwrap_err().to_string();
     assert!(error.contains("cannot write the waveform"), "{error}");
+}
+
+#[test]
+fn a_trace_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let sums = sums(500, 3);
+    let library = model(&chain(4), &probes());
+    let run = |window: Option<TraceWindow>| {
+        let mut bench = Bench::new(&library, 8).unwrap();
+        if let Some(window) = window {
+            bench.trace(&window).unwrap();
+        }
+        let tables = [Some(&sums.term), Some(&sums.second_sum)];
+        let probes = [Some(&sums.term), None, None, Some(&sums.second_sum)];
+        let stalls = Stalls { idle: Pattern::Gaps, back_pressure: Pattern::Random75, seed: 8 };
+        let (statics, tables, probes) = (&[BIAS][..], &tables, &probes);
+        bench.run(&Job { statics, tables, probes, stalls, ..Job::default() }).unwrap()
+    };
+    let untraced = run(None);
+    assert!(matches!(untraced, Outcome::Mismatch(_)), "{untraced}");
+    for (from_cycle, to_cycle) in [(0, u64::MAX), (300, 350)] {
+        let path = folder.path().join(format!("{from_cycle}.fst"));
+        assert_eq!(run(Some(TraceWindow { path, from_cycle, to_cycle })), untraced);
+    }
 }
 
 #[test]

@@ -117,7 +117,9 @@ interpolant!(ColourBeat, ColourOutput, ColourPlane, ColourPlane);
 #[derive(Clone, Debug)]
 pub struct EdgeInterpolator<B> {
     formats: Formats,
+    bits: u32,
     tilt: bool,
+    start: i64,
     value: i64,
     saved: i64,
     a: i64,
@@ -132,7 +134,9 @@ impl<B: Interpolant> EdgeInterpolator<B> {
     pub fn new(formats: Formats, tilt: bool) -> EdgeInterpolator<B> {
         EdgeInterpolator {
             formats,
+            bits: B::bits(&formats),
             tilt,
+            start: 0,
             value: 0,
             saved: 0,
             a: 0,
@@ -147,22 +151,39 @@ impl<B: Interpolant> EdgeInterpolator<B> {
     #[inline]
     pub fn step(&mut self, beat: &B) -> B::Output {
         let step = beat.fields();
-        let movement = step.right * self.a + if self.tilt { step.down * self.b } else { 0 };
-        let sum = match step.op {
-            Op::Load => {
-                self.a = step.a;
-                self.b = step.b;
-                self.row = step.row;
-                self.low = step.low;
-                step.start
-            }
+        if step.op == Op::Load {
+            self.load(beat);
+        }
+        self.advance(step.op, step.save, step.right, step.down);
+        self.output()
+    }
+
+    /// Takes the registers of a beat that is a `LOAD`.
+    #[inline]
+    pub(super) fn load(&mut self, beat: &B) {
+        let step = beat.fields();
+        (self.start, self.a, self.b) = (step.start, step.a, step.b);
+        (self.row, self.low) = (step.row, step.low);
+    }
+
+    /// Moves on; the registers are loaded.
+    #[inline]
+    pub(super) fn advance(&mut self, op: Op, save: bool, right: i64, down: i64) {
+        let movement = right * self.a + if self.tilt { down * self.b } else { 0 };
+        let sum = match op {
+            Op::Load => self.start,
             Op::Row => self.saved + self.row + movement,
             Op::Step | Op::Reserved => self.value + movement,
         };
-        self.value = reduce(sum, B::bits(&self.formats), true);
-        if step.save {
+        self.value = reduce(sum, self.bits, true);
+        if save {
             self.saved = self.value;
         }
+    }
+
+    /// What the beat taken last gives.
+    #[inline]
+    pub(super) fn output(&self) -> B::Output {
         B::output(self.value, self.a, self.b, self.low, &self.formats)
     }
 }

@@ -29,7 +29,7 @@ impl Located {
     }
     /// The beat opens a secondary pixel.
     pub fn first(&self) -> bool {
-        self.opens_pixel()
+        self.x.opens_pixel() || self.y.opens_pixel()
     }
     /// The beat is the last in its secondary pixel.
     pub fn end(&self) -> bool {
@@ -38,16 +38,6 @@ impl Located {
     pub fn inside(&self) -> bool {
         self.x.inside && self.y.pixel.inside
     }
-}
-
-impl Lookahead for Located {
-    fn opens_pixel(&self) -> bool {
-        self.x.opens_pixel() || self.y.opens_pixel()
-    }
-    fn is_last(&self) -> bool {
-        self.beat.last
-    }
-    fn set_end(&mut self, _: bool) {}
 }
 
 /// State of stage S1.
@@ -75,14 +65,19 @@ impl Front {
         }
     }
 
-    /// Takes a beat, with its record if it is a `LOAD`; gives those whose end is known.
+    /// Whether a beat waits for the next one.
+    pub fn is_waiting(&self) -> bool {
+        self.waiting.is_some()
+    }
+
+    /// Takes a beat, with its record if it is a `LOAD`; gives the beats whose end is known now.
     #[inline]
     pub fn step(
         &mut self,
         beat: &PrimaryBeat,
         setup: &Setup,
         observer: &mut impl Observer,
-    ) -> [Option<Located>; 2] {
+    ) -> Step {
         let (op, save, last) = (beat.op, beat.save, beat.last);
         if op == Op::Load {
             self.polygon = *setup;
@@ -102,7 +97,7 @@ impl Front {
         };
         observer.input(Unit::XInterpolator, &x_beat);
         observer.input(Unit::YInterpolator, &y_beat);
-        let located = Located {
+        let mut located = Located {
             beat: *beat,
             x: self.x.step(&x_beat),
             y: self.y.step(&y_beat),
@@ -115,15 +110,29 @@ impl Front {
             bad: self.bad,
         };
         // Each interpolator says what it knows about the end; the two are joined behind them.
-        if let Some(waiting) = &mut self.waiting {
-            waiting.x.set_end(located.x.opens_pixel());
-            waiting.y.set_end(located.y.opens_pixel());
+        let mut before = self.waiting.take();
+        if let Some(before) = &mut before {
+            before.x.set_end(located.x.opens_pixel());
+            before.y.set_end(located.y.opens_pixel());
+            observer.output(Unit::XInterpolator, &before.x);
+            observer.output(Unit::YInterpolator, before.y());
         }
-        let complete = located.follow(&mut self.waiting);
-        for beat in complete.iter().flatten() {
-            observer.output(Unit::XInterpolator, &beat.x);
-            observer.output(Unit::YInterpolator, beat.y());
+        if !last {
+            self.waiting = Some(located);
+            return Step { before, this: None };
         }
-        complete
+        located.x.set_end(true);
+        located.y.set_end(true);
+        observer.output(Unit::XInterpolator, &located.x);
+        observer.output(Unit::YInterpolator, located.y());
+        Step { before, this: Some(located) }
     }
+}
+
+/// The beats that a beat completes.
+pub(super) struct Step {
+    /// The one before it.
+    pub before: Option<Located>,
+    /// Itself, if none follows.
+    pub this: Option<Located>,
 }

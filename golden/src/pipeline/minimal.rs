@@ -1,11 +1,11 @@
 //! Minimal system: coordinate interpolation and point sampling (paper, figure 3).
 
 use super::display::{display, DisplayPoint};
-use super::front::{Front, Located};
+use super::front::{Front, Located, Step};
 use super::observer::{Observer, Unit};
-use super::redirect::{redirect, Slot};
+use super::redirect::{route, Slot};
 use super::sampler::{Sampler, SamplerBeat};
-use super::{Op, Output, PrimaryBeat, Setup};
+use super::{Op, Output, Pixel, PrimaryBeat, Setup};
 use crate::config::Config;
 use crate::formats::*;
 
@@ -49,8 +49,9 @@ impl Minimal {
         output: &mut impl Output,
         observer: &mut impl Observer,
     ) {
-        for located in self.front.step(beat, setup, observer).into_iter().flatten() {
-            self.stage2(&located, output, observer);
+        let Step { before, this } = self.front.step(beat, setup, observer);
+        for located in before.iter().chain(&this) {
+            self.stage2(located, output, observer);
         }
     }
 
@@ -80,29 +81,31 @@ impl Minimal {
             observer.output(Unit::Sampler, sample);
         }
         let derived = !self.void && beat.mode.is_binocular() && beat.inside();
-        let sample = sample.filter(|s| s.hit && derived);
-        let slot = Slot {
-            primary: !self.void && primary.mask.raw() != 0,
-            secondary: sample.is_some(),
+        let primary_pixel = (!self.void && primary.mask.raw() != 0).then(|| Pixel {
             eye: beat.mode.primary(),
-            primary_x: primary.x,
-            primary_y: primary.y,
-            primary_rgba: primary.rgba,
-            primary_area: Area::new((primary.mask.raw() as u16).count_ones().into(), &self.formats),
-            primary_depth: primary.depth,
-            primary_write: primary.centre,
-            secondary_x: place.x,
-            secondary_y: place.y,
-            secondary_rgba: sample.unwrap_or_default().data.rgba(),
-            secondary_area: Area::new(self.formats.full_area().into(), &self.formats),
-            secondary_depth: sample.unwrap_or_default().data.depth(&self.formats),
-            secondary_write: true,
-            secondary_blended: false,
-        };
-        if slot.primary || slot.secondary {
+            x: primary.x,
+            y: primary.y,
+            rgba: primary.rgba,
+            area: Area::new((primary.mask.raw() as u16).count_ones().into(), &self.formats),
+            depth: primary.depth,
+            write: primary.centre,
+            blended: false,
+        });
+        let secondary_pixel = sample.filter(|s| s.hit && derived).map(|sample| Pixel {
+            eye: beat.mode.primary().other(),
+            x: place.x,
+            y: place.y,
+            rgba: sample.data.rgba(),
+            area: Area::new(self.formats.full_area().into(), &self.formats),
+            depth: sample.data.depth(&self.formats),
+            write: true,
+            blended: false,
+        });
+        if primary_pixel.is_some() || secondary_pixel.is_some() {
+            let slot = Slot::new(beat.mode.primary(), primary_pixel, secondary_pixel);
             observer.input(Unit::Redirect, &slot);
-            for (stream, pixel) in redirect(&slot, self.single) {
-                output.write(stream, &pixel);
+            for pixel in primary_pixel.iter().chain(&secondary_pixel) {
+                output.write(route(pixel.eye, self.single), pixel);
             }
         }
     }

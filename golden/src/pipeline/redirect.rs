@@ -42,29 +42,71 @@ beat! {
     }
 }
 
-/// The pixels of a slot in order, each with the stream it leaves by.
+impl Slot {
+    /// The slot of these pixels, as the hardware packs them.
+    pub fn new(eye: Eye, primary: Option<Pixel>, secondary: Option<Pixel>) -> Slot {
+        let (p, s) = (primary.unwrap_or_default(), secondary.unwrap_or_default());
+        Slot {
+            primary: primary.is_some(),
+            secondary: secondary.is_some(),
+            eye,
+            primary_x: p.x,
+            primary_y: p.y,
+            primary_rgba: p.rgba,
+            primary_area: p.area,
+            primary_depth: p.depth,
+            primary_write: p.write,
+            secondary_x: s.x,
+            secondary_y: s.y,
+            secondary_rgba: s.rgba,
+            secondary_area: s.area,
+            secondary_depth: s.depth,
+            secondary_write: s.write,
+            secondary_blended: s.blended,
+        }
+    }
+
+    /// The primary pixel.
+    pub fn primary_pixel(&self) -> Option<Pixel> {
+        self.primary.then_some(Pixel {
+            eye: self.eye,
+            x: self.primary_x,
+            y: self.primary_y,
+            rgba: self.primary_rgba,
+            area: self.primary_area,
+            depth: self.primary_depth,
+            write: self.primary_write,
+            blended: false,
+        })
+    }
+
+    /// The secondary pixel.
+    pub fn secondary_pixel(&self) -> Option<Pixel> {
+        self.secondary.then_some(Pixel {
+            eye: self.eye.other(),
+            x: self.secondary_x,
+            y: self.secondary_y,
+            rgba: self.secondary_rgba,
+            area: self.secondary_area,
+            depth: self.secondary_depth,
+            write: self.secondary_write,
+            blended: self.secondary_blended,
+        })
+    }
+}
+
+/// The stream by which an eye's pixels leave; `single`: both eyes have one display.
 #[inline]
+pub fn route(eye: Eye, single: bool) -> Eye {
+    if single {
+        Eye::Left
+    } else {
+        eye
+    }
+}
+
+/// The pixels of a slot in order, each with the stream it leaves by.
 pub fn redirect(slot: &Slot, single: bool) -> impl Iterator<Item = (Eye, Pixel)> {
-    let stream = move |eye: Eye| if single { Eye::Left } else { eye };
-    let primary = slot.primary.then_some(Pixel {
-        eye: slot.eye,
-        x: slot.primary_x,
-        y: slot.primary_y,
-        rgba: slot.primary_rgba,
-        area: slot.primary_area,
-        depth: slot.primary_depth,
-        write: slot.primary_write,
-        blended: false,
-    });
-    let secondary = slot.secondary.then_some(Pixel {
-        eye: slot.eye.other(),
-        x: slot.secondary_x,
-        y: slot.secondary_y,
-        rgba: slot.secondary_rgba,
-        area: slot.secondary_area,
-        depth: slot.secondary_depth,
-        write: slot.secondary_write,
-        blended: slot.secondary_blended,
-    });
-    primary.into_iter().chain(secondary).map(move |pixel| (stream(pixel.eye), pixel))
+    let pixels = slot.primary_pixel().into_iter().chain(slot.secondary_pixel());
+    pixels.map(move |pixel| (route(pixel.eye, single), pixel))
 }

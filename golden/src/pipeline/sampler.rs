@@ -10,7 +10,7 @@ beat! {
         first: bool,
         /// the beat is the last in its secondary pixel
         end: bool,
-        /// no further from the centre than the next beat will be
+        /// nearer to the centre than the beat before
         near: bool,
         /// the beat may be sampled
         take: bool,

@@ -35,7 +35,7 @@ beat! {
         x: PixelX,
         /// the beat moved one pixel more than the row's whole part, or one pixel at a STEP
         r#move: bool,
-        /// no further from the pixel's centre than the next beat will be
+        /// nearer to the pixel's centre than the beat before (or in its left half)
         near: bool,
         /// 0 <= x < width
         inside: bool,

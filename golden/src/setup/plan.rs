@@ -60,8 +60,8 @@ pub struct Options {
     pub arrangement: Arrangement,
     /// Primary and secondary go to one display instead of one each.
     pub single: bool,
-    /// The system tests no edges: spans are not extended, polygons of more than three
-    /// corners are not accepted.
+    /// The system tests no edges: there is none to lend, anti-aliasing widens no span, and depth
+    /// is sampled.
     pub minimal: bool,
 }
 
@@ -98,11 +98,13 @@ pub enum Reason {
     Gradient,
     /// It has more than three corners, which is a monocular feature.
     Corners,
+    /// The head is tilted, and the hardware is built without TILT.
+    Tilt,
 }
 
 impl Reason {
     /// All reasons, in the order they are listed.
-    pub const ALL: [Reason; 8] = [
+    pub const ALL: [Reason; 9] = [
         Reason::ViewExclusive,
         Reason::Ratio,
         Reason::Specular,
@@ -111,6 +113,7 @@ impl Reason {
         Reason::Antialiasing,
         Reason::Gradient,
         Reason::Corners,
+        Reason::Tilt,
     ];
 
     /// Name in tables and reports.
@@ -124,6 +127,7 @@ impl Reason {
             Reason::Antialiasing => "anti-aliasing limit",
             Reason::Gradient => "gradient limit",
             Reason::Corners => "more than three corners",
+            Reason::Tilt => "tilted head",
         }
     }
 }
@@ -280,6 +284,9 @@ impl Planner {
         // With a tilted head the larger view may still be the narrower one.
         let (primary, map) =
             usable(larger).or_else(|| usable(larger.other())).ok_or(Reason::ViewExclusive)?;
+        if !self.config.tilt && polygon.vertices.iter().any(|v| v.y[0] != v.y[1]) {
+            return Err(Reason::Tilt);
+        }
         if map.exceeds_filter() {
             return Err(Reason::Ratio);
         }

@@ -86,7 +86,7 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let builder = builder(is_terminal())?;
     let entries = regression::run(&plan, &builder, &|event| console.tell(event))?;
     console.finish();
-    print!("{}", regression::table(&entries));
+    say!("{}", regression::table(&entries).trim_end());
     let command = std::env::args().collect::<Vec<_>>().join(" ");
     if let Some(file) = &args.json {
         write_file(file, regression::json(&entries, &command).as_bytes())?;
@@ -97,13 +97,13 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     }
     for entry in &entries {
         for file in pictures(entry, &out)? {
-            println!("image {}", file.display());
+            say!("image {}", file.display());
         }
     }
     let mut failed = entries.iter().filter_map(|e| e.failure.as_ref()).peekable();
     let status = if failed.peek().is_some() { MISMATCH } else { OK };
     for failure in failed {
-        println!("\nMISMATCH\n{failure}");
+        say!("\nMISMATCH\n{failure}");
     }
     Ok(status)
 }

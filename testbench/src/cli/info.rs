@@ -17,15 +17,15 @@ pub(super) struct DoctorArgs {}
 
 pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
     if args.json {
-        println!("{:#}", list_json());
+        say!("{:#}", list_json());
         return Ok(OK);
     }
-    println!("Targets");
+    say!("Targets");
     for target in Target::ALL {
-        println!("  {:<20}{}", target.name(), target.purpose());
+        say!("  {:<20}{}", target.name(), target.purpose());
     }
-    println!(
-        "\nBuild parameters (--param NAME=VALUE){:>23}{:>10}{:>10}",
+    say!(
+        "\nBuild parameters (--param NAME=VALUE){:>23} {:>13} {:>13}",
         Config::NAMES[0],
         Config::NAMES[1],
         Config::NAMES[2]
@@ -33,17 +33,17 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
     let configs = [Config::DEFAULT, Config::PAPER, Config::FULL];
     for parameter in &PARAMETERS {
         let name = format!("{}={}", parameter.name, parameter.values.join("|"));
-        let values = configs.map(|c| format!("{:>10}", c.value(parameter)));
-        println!("  {name:<45}{:>13}{}{}", values[0].trim(), values[1], values[2]);
-        println!("      {}", parameter.help);
+        let values = configs.map(|c| format!("{:>13}", c.value(parameter)));
+        say!("  {name:<45}{:>13} {} {}", values[0].trim(), values[1], values[2]);
+        say!("      {}", parameter.help);
     }
-    println!("\nRun parameters (--param NAME=VALUE), the first value is the usual one");
+    say!("\nRun parameters (--param NAME=VALUE), the first value is the usual one");
     for parameter in &RUN_PARAMETERS {
-        println!("  {}={}\n      {}", parameter.name, parameter.values.join("|"), parameter.help);
+        say!("  {}={}\n      {}", parameter.name, parameter.values.join("|"), parameter.help);
     }
-    println!("\nScenes (--scene NAME), or a file ending in .obj or .json");
+    say!("\nScenes (--scene NAME), or a file ending in .obj or .json");
     for scene in &builtin::SCENES {
-        println!("  {:<20}{}", scene.name, scene.description);
+        say!("  {:<20}{}", scene.name, scene.description);
     }
     Ok(OK)
 }
@@ -65,6 +65,6 @@ fn list_json() -> serde_json::Value {
 
 pub(super) fn doctor(_: &DoctorArgs) -> Result<u8, Failure> {
     let doctor = Doctor::examine();
-    println!("{doctor}");
+    say!("{doctor}");
     Ok(if doctor.is_ready() { OK } else { MISSING_TOOL })
 }

@@ -2,12 +2,22 @@
 //!
 //! Exit status: 0 all compared and equal, 1 mismatch, 2 bad input, 3 a tool is missing.
 
+/// Prints a line. A reader that has gone away, as `head` does, is no reason to fail.
+macro_rules! say {
+    ($($argument:tt)*) => {{
+        use std::io::Write;
+        let _ = writeln!(std::io::stdout(), $($argument)*);
+    }};
+}
+
 mod cosim;
+mod generate;
 mod info;
 mod render;
 mod vectors;
 mod waves;
 
+use crate::generated::GenerateError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
 use crate::settings::{SettingError, Settings};
@@ -68,6 +78,8 @@ enum Command {
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
     Doctor(info::DoctorArgs),
+    /// Write rtl/sam_formats.vh and the tables of docs/ anew from the golden model's definitions
+    Generate(generate::GenerateArgs),
 }
 
 /// Options that several commands take.
@@ -141,6 +153,8 @@ enum Failure {
     Tool(#[from] ToolError),
     #[error(transparent)]
     Regression(#[from] RegressionError),
+    #[error(transparent)]
+    Generate(#[from] GenerateError),
     #[error("{0}")]
     Input(String),
 }
@@ -167,6 +181,7 @@ pub fn main() -> ExitCode {
         Command::Render(args) => render::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
+        Command::Generate(args) => generate::run(args),
     };
     let status = result.unwrap_or_else(|failure| {
         eprintln!("error: {failure}");
@@ -242,7 +257,7 @@ impl Stimulus {
 }
 
 /// The job that draws a scene's polygons.
-fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Options) -> Job<'a> {
+pub(crate) fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Options) -> Job<'a> {
     Job {
         config: settings.config,
         options,
@@ -265,11 +280,16 @@ fn builder(quiet: bool) -> Result<Builder, Failure> {
     }))
 }
 
+/// The workspace that the program is called in.
+fn workspace() -> Option<PathBuf> {
+    let here = std::env::current_dir().ok()?;
+    let mut folders = here.ancestors().filter(|folder| folder.join("rtl/sam_formats.vh").exists());
+    folders.next().map(Path::to_path_buf)
+}
+
 /// Folder for built models, in the workspace if there is one.
 fn cache_folder() -> PathBuf {
-    let here = std::env::current_dir().unwrap_or_default();
-    let workspace = here.ancestors().find(|folder| folder.join("rtl/sam_formats.vh").exists());
-    workspace.unwrap_or(&here).join(Builder::CACHE)
+    workspace().or_else(|| std::env::current_dir().ok()).unwrap_or_default().join(Builder::CACHE)
 }
 
 /// Folder for what a command writes when no other is named.

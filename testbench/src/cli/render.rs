@@ -1,10 +1,11 @@
 //! `wheatstone render`.
 
 use super::*;
+use crate::quality::Quality;
 use crate::regression::drawn_line;
 use wheatstone_golden::formats::{Eye, Rgba};
 use wheatstone_golden::frame::{Frame, NO_ID};
-use wheatstone_golden::picture::{colour_picture, id_picture, psnr, write_png, Composite, Views};
+use wheatstone_golden::picture::{colour_picture, id_picture, write_png, Composite, Views};
 
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
@@ -41,28 +42,30 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
     let name = args.common.scene.as_deref().unwrap_or("teapot");
     let geometry = args.common.geometry(name, args.common.size, &settings)?;
+    // Before the work, so that a folder that cannot be made costs none.
+    std::fs::create_dir_all(&args.out)
+        .map_err(|source| WriteError { file: args.out.clone(), source })?;
     let job = job(&settings, &geometry, settings.options);
     let start = std::time::Instant::now();
     let direct = job.direct();
     let direct_time = start.elapsed();
     let frames = match args.method {
         MethodChoice::Direct => {
-            println!(
-                "{} polygons, both views directly in {direct_time:.1?}",
-                geometry.polygons.len()
-            );
+            say!("{} polygons, both views directly in {direct_time:.1?}", geometry.polygons.len());
             direct
         }
         method => {
             let start = std::time::Instant::now();
             let (frames, counts) = job.derived(method == MethodChoice::Minimal);
-            println!("{} in {:.1?}", drawn_line(&counts), start.elapsed());
-            compare(&frames.eyes, &direct);
+            say!("{} in {:.1?}", drawn_line(&counts), start.elapsed());
+            for (eye, (frame, direct)) in Eye::BOTH.into_iter().zip(frames.eyes.iter().zip(&direct))
+            {
+                let quality = Quality::of(&job, eye, frame, direct);
+                say!("{} view against direct rendering: {quality}", eye.name());
+            }
             frames.eyes
         }
     };
-    std::fs::create_dir_all(&args.out)
-        .map_err(|source| WriteError { file: args.out.clone(), source })?;
     let pictures = [&frames[0], &frames[1]].map(picture);
     for eye in Eye::BOTH {
         let frame = &frames[eye as usize];
@@ -76,7 +79,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     for composite in &args.stereo {
         let file = args.out.join(format!("{}.png", composite.name()));
         composite.write(&file, &Views { left: &pictures[0], right: &pictures[1] })?;
-        println!("image {}", file.display());
+        say!("image {}", file.display());
     }
     Ok(OK)
 }
@@ -84,38 +87,11 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
 fn save(folder: &Path, name: &str, picture: &image::RgbImage) -> Result<(), Failure> {
     let file = folder.join(name);
     write_png(&file, picture)?;
-    println!("image {}", file.display());
+    say!("image {}", file.display());
     Ok(())
 }
 
 fn picture(frame: &Frame) -> image::RgbImage {
     let colours: Vec<Rgba> = frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
     colour_picture(frame.width, frame.height, &colours)
-}
-
-/// Says how far a derived pair is from direct rendering.
-fn compare(frames: &[Frame; 2], direct: &[Frame; 2]) {
-    for eye in Eye::BOTH {
-        let (frame, direct) = (&frames[eye as usize], &direct[eye as usize]);
-        if (frame.width, frame.height) != (direct.width, direct.height) {
-            println!(
-                "{} view: arranged for its display, not compared with direct rendering",
-                eye.name()
-            );
-            continue;
-        }
-        let pixels = direct.colour.len();
-        let differ = |f: &dyn Fn(usize) -> bool| (0..pixels).filter(|&n| f(n)).count();
-        let colour = differ(&|n| frame.colour[n] != direct.colour[n]);
-        let id = differ(&|n| frame.id[n] != direct.id[n]);
-        let gaps = differ(&|n| frame.id[n] == NO_ID && direct.id[n] != NO_ID);
-        let quality = match psnr(&picture(frame), &picture(direct)) {
-            Some(psnr) if psnr.is_finite() => format!("{psnr:.1} dB"),
-            _ => "identical".into(),
-        };
-        println!(
-            "{} view against direct rendering: {quality}, {colour} of {pixels} colours, {id} ids differ, {gaps} gaps",
-            eye.name()
-        );
-    }
 }

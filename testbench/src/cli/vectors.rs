@@ -41,11 +41,11 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
         let case = case(args, &settings, target, seed, beats)?;
         let hash = pack::rtl_hash(&rtl, target.module())?;
         let info = pack::write(&case, seed, &hash, &args.out)?;
-        println!("{}: {}, {} beats", info.folder.display(), case.name, info.beats);
+        say!("{}: {}, {} beats", info.folder.display(), case.name, info.beats);
     }
     let folder = args.out.display();
-    println!("verify with:  wheatstone check {folder}");
-    println!(
+    say!("verify with:  wheatstone check {folder}");
+    say!(
         "replay with:  iverilog -g2005 -I {folder}/{0} -o t {folder}/{0}/replay.v {1}/*.v && vvp t",
         targets[0].name(),
         rtl.display()
@@ -78,15 +78,16 @@ pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
     for checked in &packs {
         let manifest = &checked.manifest;
         let beats: u64 = manifest.ports.iter().map(|p| p.beats).sum();
-        print!("{}: sound, {beats} beats", checked.folder.display());
+        let sound = format!("{}: sound, {beats} beats", checked.folder.display());
         match &rtl {
-            None => println!("; no Verilog here to compare with"),
+            None => say!("{sound}; no Verilog here to compare with"),
             Some(rtl) if pack::rtl_hash(rtl, &manifest.module)? == manifest.rtl_blake3 => {
-                println!(", matches {}", rtl.join(&manifest.module).with_extension("v").display());
+                let file = rtl.join(&manifest.module).with_extension("v");
+                say!("{sound}, matches {}", file.display());
             }
             Some(rtl) => {
-                println!(
-                    ", but made for other Verilog than {}: write it again with wheatstone vectors",
+                say!(
+                    "{sound}, but made for other Verilog than {}: write it again with wheatstone vectors",
                     rtl.display()
                 );
                 status = MISMATCH;

@@ -79,12 +79,12 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
             _ => format!("--polygon: {name} does not draw this polygon"),
         }));
     };
-    println!("{}: cycles {} to {}", waves.file.display(), waves.cycles.start(), waves.cycles.end());
+    say!("{}: cycles {} to {}", waves.file.display(), waves.cycles.start(), waves.cycles.end());
     if let Some(marker) = waves.marker {
-        println!("marker on cycle {marker}");
+        say!("marker on cycle {marker}");
     }
     let view = waves.file.with_extension("gtkw");
-    println!("open with:  gtkwave {}", view.display());
+    say!("open with:  gtkwave {}", view.display());
     if args.open {
         let gtkwave =
             crate::tools::GTKWAVE.find_in(&std::env::var_os("PATH").unwrap_or_default())?;

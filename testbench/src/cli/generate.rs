@@ -1,0 +1,37 @@
+//! `wheatstone generate`.
+
+use super::*;
+use crate::generated::Generated;
+use wheatstone_golden::picture::write_file;
+
+#[derive(Debug, Args)]
+pub(super) struct GenerateArgs {
+    /// Write nothing; say what is not current, with exit status 1
+    #[arg(long)]
+    check: bool,
+}
+
+pub(super) fn run(args: &GenerateArgs) -> Result<u8, Failure> {
+    let root = workspace().ok_or_else(|| {
+        Failure::Input("no folder with rtl/sam_formats.vh here or above: not in a workspace".into())
+    })?;
+    let mut status = OK;
+    for generated in Generated::all() {
+        let path = generated.path();
+        let file = root.join(&path);
+        let present = std::fs::read_to_string(&file)
+            .map_err(|error| Failure::Input(format!("{}: {error}", file.display())))?;
+        let renewed = generated.renewed(&present, &root)?;
+        if renewed == present {
+            continue;
+        }
+        if args.check {
+            say!("{path}: not current; run: wheatstone generate");
+            status = MISMATCH;
+        } else {
+            write_file(&file, renewed.as_bytes())?;
+            say!("{path}: written");
+        }
+    }
+    Ok(status)
+}
