@@ -27,9 +27,10 @@ pub fn builder() -> Builder {
     Builder::new(tools, workspace().join(Builder::CACHE))
 }
 
-/// The same for models that are run once: quickly built, slow.
+/// A builder of models that are run once: quickly built, slow.
 pub fn quick_builder() -> Builder {
-    builder().unoptimised()
+    let tools = Toolchain::find().unwrap_or_else(|missing| panic!("{missing}"));
+    Builder::new(tools, workspace().join("target/wheatstone/quick")).unoptimised()
 }
 
 /// A folder that goes when it is dropped.

@@ -1,1 +1,285 @@
-//! Later.
+//! Vector packs: they replay in Icarus without Rust, catch bugs there, and are refused when damaged.
+
+use serde_json::{json, Value};
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::targets::Target;
+use wheatstone_testbench::cases::{self, Case};
+use wheatstone_testbench::pack::{self, Manifest};
+use wheatstone_tests::*;
+
+/// Writes the pack of a case.
+fn write(case: &Case, out: &Path) -> Manifest {
+    let hash = pack::rtl_hash(&rtl(), case.target.module()).expect("the Verilog");
+    pack::write(case, 1, &hash, out).unwrap_or_else(|error| panic!("{error}")).manifest
+}
+
+/// Runs the command that the documentation gives, in a folder with the packs and a link to the
+/// Verilog.
+fn replay(folder: &Path, rtl: &Path, target: Target, arguments: &str) -> String {
+    // Names a missing program, and how to install it.
+    let (_, _) = (tool("iverilog"), tool("vvp"));
+    let link = folder.join("rtl");
+    if !link.exists() {
+        symlink(fs::canonicalize(rtl).expect("a folder"), &link).expect("a link");
+    }
+    let pack = target.name();
+    let command =
+        format!("iverilog -g2005 -I {pack} -o t {pack}/replay.v rtl/*.v && vvp t {arguments}");
+    let (passed, text) = said(Command::new("sh").arg("-c").arg(&command).current_dir(folder));
+    assert!(passed, "{command}\n{text}");
+    text
+}
+
+/// Writes, checks and replays a case, with stalls and without.
+fn passes(case: &Case) {
+    let folder = folder();
+    let manifest = write(case, folder.path());
+    let checked = pack::check(&folder.path().join(case.target.name()));
+    assert_eq!(checked.unwrap_or_else(|error| panic!("{error}"))[0].manifest, manifest);
+    for arguments in ["", "+stall=0"] {
+        let text = replay(folder.path(), &rtl(), case.target, arguments);
+        let mut lines = text.lines().rev();
+        assert_eq!(lines.next(), Some("PASS"), "{} {}:\n{text}", case.target.name(), case.name);
+        let outputs = manifest.ports.iter().filter(|port| port.direction == "output");
+        for port in outputs {
+            let (name, crc, beats) = (&port.name, &port.crc32, port.beats);
+            let line = format!("crc {name} {crc}, expected {crc}, {beats} of {beats} beats");
+            assert!(text.lines().any(|l| l == line), "“{line}” is not in:\n{text}");
+        }
+    }
+}
+
+/// Random vectors of all targets, and the bad setups and stray beats of the systems.
+fn all_pass(config: &Config) {
+    for target in Target::ALL {
+        passes(&cases::random(target, config, 3, 400));
+        if target.is_system() {
+            cases::directed(target, config).iter().for_each(passes);
+        }
+    }
+}
+
+#[test]
+fn packs_of_the_default_configuration_replay_in_icarus() {
+    all_pass(&Config::DEFAULT);
+}
+
+#[test]
+fn packs_of_the_paper_configuration_replay_in_icarus() {
+    all_pass(&Config::PAPER);
+}
+
+#[test]
+fn packs_of_the_full_configuration_replay_in_icarus() {
+    all_pass(&Config::FULL);
+}
+
+#[test]
+fn a_replay_on_wrong_verilog_says_fail() {
+    // A wrong value, a beat too many, and a stream that never ends.
+    for (target, file, find, to) in [
+        (Target::Filter, "sam_filter.v", "(so_many == 0) |", "(so_many != 0) |"),
+        (
+            Target::Sampler,
+            "sam_sampler.v",
+            "beat_valid_i & beat_end_i",
+            "beat_valid_i | beat_end_i",
+        ),
+        (Target::XInterpolator, "sam_x_interpolator.v", "(last_q | beat_valid_i)", "last_q"),
+        (Target::Hybrid, "sam_slot_queue.v", "answer_depth < response", "answer_depth > response"),
+        (Target::Minimal, "sam_redirect.v", "slot_eye_i ^ ~left_primary", "slot_eye_i"),
+    ] {
+        let (folder, copy) = (folder(), copy_of_rtl());
+        plant(copy.path(), file, find, to);
+        write(&cases::random(target, &Config::DEFAULT, 3, 400), folder.path());
+        let text = replay(folder.path(), copy.path(), target, "");
+        let last = text.lines().last().unwrap_or("");
+        assert!(last.starts_with("FAIL ("), "{file}: {find} → {to}:\n{text}");
+        assert!(!text.contains("PASS"), "{text}");
+    }
+}
+
+/// A small sound pack that a test may damage.
+struct Sound {
+    _folder: tempfile::TempDir,
+    pack: PathBuf,
+}
+
+impl Sound {
+    fn new() -> Sound {
+        let folder = folder();
+        write(&cases::random(Target::Filter, &Config::DEFAULT, 1, 60), folder.path());
+        let pack = folder.path().join("filter");
+        Sound { _folder: folder, pack }
+    }
+
+    /// Changes the bytes of a file.
+    fn edit(&self, file: &str, change: impl FnOnce(&mut Vec<u8>)) {
+        let path = self.pack.join(file);
+        let mut bytes = fs::read(&path).expect("a file of the pack");
+        change(&mut bytes);
+        fs::write(path, bytes).expect("written");
+    }
+
+    /// Changes the manifest.
+    fn manifest(&self, change: impl FnOnce(&mut Value)) {
+        self.edit("manifest.json", |bytes| {
+            let mut value = serde_json::from_slice(bytes).expect("JSON");
+            change(&mut value);
+            *bytes = value.to_string().into_bytes();
+        });
+    }
+
+    fn error(&self) -> String {
+        pack::check(&self.pack).expect_err("it is damaged").to_string()
+    }
+}
+
+/// Whether a damaged pack is refused with all of these words, in one line.
+fn refused(what: &str, words: &[&str], damage: impl FnOnce(&Sound)) {
+    let sound = Sound::new();
+    damage(&sound);
+    let error = sound.error();
+    for word in words {
+        assert!(error.contains(word), "{what}: “{error}” does not say “{word}”");
+    }
+    assert_eq!(error.lines().count(), 1, "{what}: {error}");
+}
+
+#[test]
+fn damaged_files_are_refused_by_name_and_field() {
+    for (file, field) in [
+        ("beat.bin", "ports.beat.bin.blake3"),
+        ("beat.mem", "ports.beat.mem.blake3"),
+        ("pixel.bin", "ports.pixel.bin.blake3"),
+        ("pixel.mem", "ports.pixel.mem.blake3"),
+        ("vec.vh", "bench.vec.vh.blake3"),
+        ("replay.v", "bench.replay.v.blake3"),
+        ("sam_formats.vh", "bench.sam_formats.vh.blake3"),
+    ] {
+        let path = format!("filter/{file}");
+        refused("a flipped bit", &[&path, field], |p| p.edit(file, |b| b[7] ^= 4));
+        refused("truncated", &[&path, field], |p| p.edit(file, |b| b.truncate(b.len() - 1)));
+        refused("empty", &[&path, field, "0 bytes"], |p| p.edit(file, Vec::clear));
+        refused("longer", &[&path, field], |p| p.edit(file, |b| b.push(b'\n')));
+        refused("missing", &[&path, "No such file"], |p| {
+            fs::remove_file(p.pack.join(file)).expect("removed");
+        });
+    }
+}
+
+#[test]
+fn a_damaged_manifest_is_refused_by_line() {
+    let manifest = ["filter/manifest.json", "line 1"];
+    refused("empty", &manifest, |p| p.edit("manifest.json", Vec::clear));
+    refused("no JSON", &manifest, |p| p.edit("manifest.json", |b| *b = b"PASS\n".to_vec()));
+    refused("truncated", &["filter/manifest.json: line ", "EOF"], |p| {
+        p.edit("manifest.json", |b| b.truncate(b.len() / 2));
+    });
+    refused("no text", &["filter/manifest.json"], |p| p.edit("manifest.json", |b| b[9] = 0xff));
+    refused("unknown field", &["manifest.json: line ", "unknown field `colour`"], |p| {
+        p.manifest(|m| m["colour"] = json!("red"));
+    });
+    refused("unknown field below", &["manifest.json: line ", "unknown field `x`"], |p| {
+        p.manifest(|m| m["ports"][0]["fields"][0]["x"] = json!(1));
+    });
+    refused("missing field", &["manifest.json: line ", "missing field `beats`"], |p| {
+        p.manifest(|m| drop(m["ports"][1].as_object_mut().expect("a port").remove("beats")));
+    });
+    refused("another type", &["manifest.json: line ", "invalid type"], |p| {
+        p.manifest(|m| m["ports"][0]["beats"] = json!("many"));
+    });
+    refused("no object", &["manifest.json", "field format"], |p| {
+        p.edit("manifest.json", |b| *b = b"[]".to_vec());
+    });
+    let missing = folder();
+    let error = pack::check(missing.path()).expect_err("nothing is there").to_string();
+    assert!(
+        error.contains("no vector pack here") && error.contains("wheatstone vectors"),
+        "{error}"
+    );
+    let error = pack::check(&missing.path().join("gone")).expect_err("nor here").to_string();
+    assert!(error.contains("gone: No such file"), "{error}");
+}
+
+#[test]
+fn a_manifest_that_contradicts_its_files_is_refused_by_field() {
+    // Where, the wrong value, and what the error must say.
+    let cases: &[(&str, Value, &[&str])] = &[
+        ("/format", json!("vectors"), &["field format", "wheatstone-vectors"]),
+        ("/schema", json!(2), &["field schema: 2", "a newer pack needs a newer wheatstone"]),
+        ("/schema", json!("1"), &["field schema: \"1\""]),
+        ("/schema", json!(-1), &["field schema: -1"]),
+        ("/target", json!("warp"), &["field target: warp", "wheatstone list"]),
+        ("/target", json!("sampler"), &["field module: sam_filter, expected sam_sampler"]),
+        ("/module", json!("sam_blend"), &["field module: sam_blend, expected sam_filter"]),
+        ("/ports/0/name", json!("pulse"), &["field ports: pulse, pixel, expected beat, pixel"]),
+        ("/ports", json!([]), &["field ports: , expected beat, pixel"]),
+        ("/ports/0/direction", json!("output"), &["field ports.beat.direction: output"]),
+        ("/ports/0/answers", json!("pixel"), &["field ports.beat.answers: pixel"]),
+        ("/ports/0/beats", json!(61), &["field ports.beat.beats"]),
+        ("/ports/1/beats", json!(u64::MAX), &["field ports.pixel.beats"]),
+        ("/ports/0/bits", json!(36), &["field ports.beat.bits: 36, expected 35"]),
+        ("/ports/0/bytes", json!(4), &["field ports.beat.bytes: 4, expected 5"]),
+        ("/ports/0/bytes", json!(0), &["field ports.beat.bytes: 0, expected 5"]),
+        ("/ports/1/crc32", json!("00000000"), &["field ports.pixel.crc32: 00000000"]),
+        ("/ports/0/fields/1/lsb", json!(2), &["field ports.beat.fields.end.lsb: 2, expected 1"]),
+        ("/ports/0/fields/1/bits", json!(0), &["field ports.beat.fields.end.bits: 0"]),
+        ("/ports/0/fields/3/bits", json!(65), &["field ports.beat.fields.rgba.bits: 65"]),
+        ("/ports/0/fields/0/name", json!("last"), &["field ports.beat.fields: last, end"]),
+        ("/ports/0/fields", json!([]), &["field ports.beat.fields"]),
+        ("/ports/0/bin/file", json!("../filter/beat.bin"), &["field ports.beat.bin", "../filter"]),
+        ("/ports/0/mem/file", json!("/etc/passwd"), &["field ports.beat.mem", "/etc/passwd"]),
+        ("/ports/0/mem/file", json!("..\\x"), &["field ports.beat.mem", "a name without a folder"]),
+        ("/bench/0/file", json!("../vec.vh"), &["field bench.../vec.vh", "without a folder"]),
+        ("/ports/0/bin/file", json!(".."), &["filter/.."]),
+        ("/ports/0/bin/blake3", json!("ff"), &["field ports.beat.bin.blake3", "expected ff"]),
+    ];
+    for (at, value, words) in cases {
+        let what = format!("{at} = {value}");
+        refused(&what, &[&["manifest.json"], *words].concat(), |p| {
+            p.manifest(|m| match m.pointer_mut(at) {
+                Some(field) => *field = value.clone(),
+                None => m["ports"][0]["answers"] = value.clone(),
+            });
+        });
+    }
+}
+
+#[test]
+fn beats_that_differ_between_the_two_files_are_named_by_line() {
+    // The hash in the manifest is the new file's: only the beats themselves are wrong.
+    refused("edited", &["field ports.pixel.mem", "pixel.mem differs", "at line 3"], |p| {
+        p.edit("pixel.mem", |bytes| {
+            let line = bytes.split(|b| *b == b'\n').take(2).map(|l| l.len() + 1).sum::<usize>();
+            bytes[line] = if bytes[line] == b'0' { b'1' } else { b'0' };
+        });
+        let content = fs::read(p.pack.join("pixel.mem")).expect("the beats");
+        let hash = blake3::hash(&content).to_hex().to_string();
+        p.manifest(|m| m["ports"][1]["mem"]["blake3"] = json!(hash));
+    });
+}
+
+#[test]
+fn a_pack_replaces_an_older_one_and_nothing_else() {
+    let folder = folder();
+    let case = cases::random(Target::Display, &Config::DEFAULT, 1, 20);
+    write(&case, folder.path());
+    write(&cases::random(Target::Display, &Config::DEFAULT, 2, 30), folder.path());
+    assert_eq!(pack::check(folder.path()).expect("sound").len(), 1);
+    let entries = fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(entries, 1, "nothing temporary is left");
+    // A folder of that name that is no pack is somebody's work.
+    let other = folder.path().join("blend");
+    fs::create_dir(&other).expect("a folder");
+    fs::write(other.join("notes.txt"), "keep me").expect("written");
+    let case = cases::random(Target::Blend, &Config::DEFAULT, 1, 20);
+    let error = pack::write(&case, 1, "", folder.path()).expect_err("not a pack").to_string();
+    assert!(error.contains("blend: exists and is no vector pack"), "{error}");
+    assert_eq!(fs::read_to_string(other.join("notes.txt")).expect("kept"), "keep me");
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2);
+}

@@ -65,7 +65,8 @@ struct Watch {
 impl Observer for Watch {
     const ACTIVE: bool = true;
     fn input<B: Beat>(&mut self, unit: Unit, beat: &B) {
-        if !self.keep_inputs {
+        // What goes into blending is watched in every run.
+        if !self.keep_inputs && unit != Unit::Blend {
             return;
         }
         let formats = self.formats;

@@ -244,7 +244,7 @@ impl Target {
     }
 }
 
-/// A stream inside a system that a unit gives, for probing.
+/// A stream of a unit inside a system, for probing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Probe {
     /// The unit.
@@ -253,7 +253,8 @@ pub struct Probe {
     pub module: &'static str,
     /// Path of the instance inside the system.
     pub path: &'static str,
-    /// The stream it gives.
+    /// The stream: one that it gives or, where more than other units' streams decides what comes in,
+    /// takes.
     pub stream: Stream,
 }
 
@@ -293,5 +294,11 @@ pub fn probes(target: Target, config: &Config) -> Vec<Probe> {
         Unit::Red | Unit::Green | Unit::Blue => target == Target::Hybrid && config.integrated,
         _ => target == Target::Hybrid,
     };
-    Unit::ALL.into_iter().filter(present).filter_map(probe).collect()
+    let mut probes: Vec<Probe> = Unit::ALL.into_iter().filter(present).filter_map(probe).collect();
+    // Slot queue and memory stand before blending.
+    if let Some(blend) = probes.iter().position(|probe| probe.unit == Unit::Blend) {
+        let stream = Stream::input::<blend::BlendPixel>("pixel", f);
+        probes.insert(blend, Probe { stream, ..probes[blend].clone() });
+    }
+    probes
 }

@@ -138,15 +138,66 @@ pub fn display_case(config: &Config, seed: u64, beats: usize) -> Case {
     case
 }
 
+/// Both ends and the middle of x and y at the narrowest and the widest view, in every mode.
+pub fn display_corners(config: &Config, width: u32) -> Case {
+    let f = &Formats::new(config);
+    let mut case = Case::empty(Target::Display, config, format!("every mode, width {width}"));
+    case.statics = vec![width.into()];
+    let end = 1 << (PixelX::bits(f) - 1);
+    let last = (1 << f.coordinate_bits) - 1;
+    for x in [-end, -1, 0, 1, i64::from(width) - 1, width.into(), last, end - 1] {
+        for y in [0, 1, last / 2, last] {
+            for mode in 0..4 {
+                let point = DisplayPoint {
+                    x: PixelX::new(x, f),
+                    y: Coordinate::new(y, f),
+                    swap: mode & 1 == 1,
+                    mirror: mode & 2 == 2,
+                };
+                case.give(&point);
+                case.expect(&display(&point, width, f));
+            }
+        }
+    }
+    case
+}
+
+/// A slot with random pixels.
+fn slot(rng: &mut Rng, primary: bool, secondary: bool, eye: Eye, f: &Formats) -> Slot {
+    let coordinate = |rng: &mut Rng| Coordinate::wrap(rng.i64(..), f);
+    Slot {
+        primary,
+        secondary,
+        eye,
+        primary_x: coordinate(rng),
+        primary_y: coordinate(rng),
+        primary_rgba: Rgba::from_word(rng.u32(..)),
+        primary_area: Area::wrap(rng.i64(..), f),
+        primary_depth: Depth::wrap(rng.i64(..), f),
+        primary_write: rng.bool(),
+        secondary_x: coordinate(rng),
+        secondary_y: coordinate(rng),
+        secondary_rgba: Rgba::from_word(rng.u32(..)),
+        secondary_area: Area::wrap(rng.i64(..), f),
+        secondary_depth: Depth::wrap(rng.i64(..), f),
+        secondary_write: rng.bool(),
+        secondary_blended: rng.bool(),
+    }
+}
+
+fn give_slot(case: &mut Case, slot: &Slot, single: bool) {
+    case.give(slot);
+    for (stream, pixel) in redirect(slot, single) {
+        case.outputs[stream as usize].push(&pixel);
+    }
+}
+
 pub fn redirect_case(config: &Config, seed: u64, beats: usize) -> Case {
     let f = &Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
-    let single = seed.is_multiple_of(3);
-    let mut case = Case::empty(
-        Target::Redirect,
-        config,
-        if single { "random, one display" } else { "random" },
-    );
+    let single = seed % 3 == 0;
+    let name = if single { "random, one display" } else { "random" };
+    let mut case = Case::empty(Target::Redirect, config, name);
     case.statics = vec![single.into()];
     // Runs of slots for one eye, as polygons make them, and single ones.
     let mut eye = Eye::Left;
@@ -154,28 +205,24 @@ pub fn redirect_case(config: &Config, seed: u64, beats: usize) -> Case {
         if rng.u32(..6) == 0 {
             eye = Eye::BOTH[rng.usize(..2)];
         }
-        let coordinate = |rng: &mut Rng| Coordinate::wrap(rng.i64(..), f);
-        let slot = Slot {
-            primary: rng.u32(..4) > 0,
-            secondary: rng.u32(..4) > 0,
-            eye,
-            primary_x: coordinate(rng),
-            primary_y: coordinate(rng),
-            primary_rgba: Rgba::from_word(rng.u32(..)),
-            primary_area: Area::wrap(rng.i64(..), f),
-            primary_depth: Depth::wrap(rng.i64(..), f),
-            primary_write: rng.bool(),
-            secondary_x: coordinate(rng),
-            secondary_y: coordinate(rng),
-            secondary_rgba: Rgba::from_word(rng.u32(..)),
-            secondary_area: Area::wrap(rng.i64(..), f),
-            secondary_depth: Depth::wrap(rng.i64(..), f),
-            secondary_write: rng.bool(),
-            secondary_blended: rng.bool(),
-        };
-        case.give(&slot);
-        for (stream, pixel) in redirect(&slot, single) {
-            case.outputs[stream as usize].push(&pixel);
+        let (primary, secondary) = (rng.u32(..4) > 0, rng.u32(..4) > 0);
+        give_slot(&mut case, &slot(rng, primary, secondary, eye, f), single);
+    }
+    case
+}
+
+/// Every kind of slot after every other.
+pub fn redirect_corners(config: &Config, single: bool) -> Case {
+    let f = &Formats::new(config);
+    let rng = &mut Rng::with_seed(single.into());
+    let displays = if single { "one display" } else { "two displays" };
+    let mut case =
+        Case::empty(Target::Redirect, config, format!("every pair of slots, {displays}"));
+    case.statics = vec![single.into()];
+    for pair in 0..64 {
+        for kind in [pair >> 3, pair & 7] {
+            let eye = Eye::BOTH[kind >> 2];
+            give_slot(&mut case, &slot(rng, kind & 1 == 1, kind & 2 == 2, eye, f), single);
         }
     }
     case

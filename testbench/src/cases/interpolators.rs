@@ -37,6 +37,15 @@ fn quantity<Q: Quantity>(rng: &mut Rng, f: &Formats) -> Q {
     Q::new(raw::<Q>(rng, f), f)
 }
 
+/// A start anywhere, or within a pixel of the end of the view.
+fn start(rng: &mut Rng, size: u32, f: &Formats) -> SecondaryX {
+    if rng.u32(..8) > 0 {
+        return quantity(rng, f);
+    }
+    let end = i64::from(size) << FRACTION_BITS;
+    SecondaryX::wrap(end + rng.i64(-SCALE_ONE..=SCALE_ONE), f)
+}
+
 /// A legal G1, the ends of its range more often than the rest.
 fn scale(rng: &mut Rng, f: &Formats) -> Scale {
     let raw = match rng.u32(..8) {
@@ -73,13 +82,14 @@ impl XRun {
 pub fn x(config: &Config, seed: u64, beats: usize) -> Case {
     let f = &Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
-    let mut run = XRun::new(config, "random", rng.u32(1..=f.max_size));
+    let width = rng.u32(1..=f.max_size);
+    let mut run = XRun::new(config, "random", width);
     for n in 0..beats {
         let beat = XBeat {
             op: op(rng, n == 0),
             save: n == 0 || rng.u32(..4) == 0,
             last: n + 1 == beats || rng.u32(..24) == 0,
-            start: quantity(rng, f),
+            start: start(rng, width, f),
             step: scale(rng, f),
             row: quantity(rng, f),
         };
@@ -93,8 +103,20 @@ pub fn x_corners(config: &Config) -> Case {
     let f = &Formats::new(config);
     let mut run = XRun::new(config, "every mapping ratio and accumulator end", f.max_size);
     let end = 1 << (SecondaryX::bits(f) - 1);
-    let starts =
-        [0, 1, SCALE_ONE / 2, SCALE_ONE - 1, -1, -SCALE_ONE, end - 1, end - SCALE_ONE, -end];
+    let width = i64::from(f.max_size) << FRACTION_BITS;
+    let starts = [
+        0,
+        1,
+        SCALE_ONE / 2,
+        SCALE_ONE - 1,
+        -1,
+        -SCALE_ONE,
+        width - 1,
+        width,
+        end - 1,
+        end - SCALE_ONE,
+        -end,
+    ];
     for ratio in 1..=33 {
         for start in starts {
             let step = Scale::new((2 * SCALE_ONE + ratio) / (2 * ratio), f);
@@ -147,7 +169,8 @@ fn slant(rng: &mut Rng, f: &Formats) -> Slant {
 pub fn y(config: &Config, seed: u64, beats: usize) -> Case {
     let f = &Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
-    let mut run = YRun::new(config, "random", rng.u32(1..=f.max_size));
+    let height = rng.u32(1..=f.max_size);
+    let mut run = YRun::new(config, "random", height);
     for n in 0..beats {
         let beat = YBeat {
             op: op(rng, n == 0),
@@ -155,7 +178,7 @@ pub fn y(config: &Config, seed: u64, beats: usize) -> Case {
             last: n + 1 == beats || rng.u32(..24) == 0,
             start: quantity(rng, f),
             step: DisplayStep::new(rng.i64(-2..=2), f),
-            view: quantity(rng, f),
+            view: start(rng, height, f),
             slant: slant(rng, f),
             row: quantity(rng, f),
         };
@@ -169,10 +192,11 @@ pub fn y_corners(config: &Config) -> Case {
     let f = &Formats::new(config);
     let mut run = YRun::new(config, "every display step and accumulator end", f.max_size);
     let end = 1 << (SecondaryX::bits(f) - 1);
+    let height = i64::from(f.max_size) << FRACTION_BITS;
     for step in -2..=2 {
         for start in [0, 1, (1 << f.coordinate_bits) - 1] {
             for slant in [-SCALE_ONE, -1, 0, 1, SCALE_ONE] {
-                for view in [0, -1, end - 1, -end] {
+                for view in [0, -1, height - 1, height, end - 1, -end] {
                     for n in 0..6 {
                         let beat = YBeat {
                             op: [Op::Load, Op::Step, Op::Step, Op::Row, Op::Step, Op::Row][n],
@@ -221,7 +245,7 @@ pub fn edge(config: &Config, seed: u64, beats: usize) -> Case {
             op: op(rng, n == 0),
             save: n == 0 || rng.u32(..4) == 0,
             r#move: rng.bool(),
-            y_move: Move::new(rng.i64(-1..=1), f),
+            y_move: Move::new(rng.i64(-2..=1), f),
             start: quantity(rng, f),
             a: quantity(rng, f),
             b: quantity(rng, f),

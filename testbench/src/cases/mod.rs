@@ -10,6 +10,7 @@ mod systems;
 
 use std::fmt;
 use wheatstone_golden::config::Config;
+use wheatstone_golden::formats::Formats;
 use wheatstone_golden::frame::Frames;
 use wheatstone_golden::interface::{Beat, Direction, Interface, Table};
 use wheatstone_golden::targets::{Probe, Target};
@@ -114,12 +115,17 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
         Target::XInterpolator => vec![interpolators::x_corners(config)],
         Target::YInterpolator => vec![interpolators::y_corners(config)],
         Target::EdgeInterpolator => vec![interpolators::edge_corners(config)],
-        Target::Sampler => Vec::new(),
+        Target::Sampler => vec![pixels::sampler_corners(config)],
         Target::Filter => vec![pixels::filter_corners(config)],
         Target::Coverage => vec![combinational::coverage_corners(config)],
         Target::Blend => vec![combinational::blend_corners(config)],
-        Target::Display => Vec::new(),
-        Target::Redirect => Vec::new(),
+        Target::Display => {
+            let widest = Formats::new(config).max_size;
+            [1, widest].map(|width| combinational::display_corners(config, width)).to_vec()
+        }
+        Target::Redirect => {
+            [false, true].map(|single| combinational::redirect_corners(config, single)).to_vec()
+        }
         Target::Minimal | Target::Hybrid => systems::directed(target, config),
     }
 }

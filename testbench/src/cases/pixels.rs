@@ -36,6 +36,32 @@ pub fn sampler(config: &Config, seed: u64, beats: usize) -> Case {
     case
 }
 
+/// Every pixel of up to four beats: each beat may be near, taken, both or neither.
+pub fn sampler_corners(config: &Config) -> Case {
+    let f = &Formats::new(config);
+    let mut case = Case::empty(Target::Sampler, config, "every pixel of up to four beats");
+    let mut model = Sampler::default();
+    for length in 1..=4 {
+        for kinds in 0..1 << (2 * length) {
+            for n in 0..length {
+                let kind = kinds >> (2 * n);
+                let beat = SamplerBeat {
+                    first: n == 0,
+                    end: n + 1 == length,
+                    near: kind & 1 == 1,
+                    take: kind & 2 == 2,
+                    data: SampleData::wrap(!(kinds << 4 | n) * 0x0101_0101_0101, f),
+                };
+                case.give(&beat);
+                if let Some(sample) = model.step(&beat) {
+                    case.expect(&sample);
+                }
+            }
+        }
+    }
+    case
+}
+
 /// A channel value, often an end of the range.
 fn channel(rng: &mut Rng) -> u8 {
     match rng.u32(..4) {

@@ -10,7 +10,7 @@ use wheatstone_golden::pipeline::{Edges, Mode, Op, PrimaryBeat, Setup};
 use wheatstone_golden::primary::Sink;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::record::{Recording, Tape};
-use wheatstone_golden::setup::{Arrangement, Options, Polygon, Sampling, Specular};
+use wheatstone_golden::setup::{Arrangement, Eyes, Options, Polygon, Sampling, Specular};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::{probes, Target};
 use wheatstone_golden::texture::Lookup;
@@ -30,7 +30,11 @@ pub fn recorded(target: Target, job: &Job, name: &str, recording: &Recording) ->
     case.flags = vec![recording.error.into()];
     for probe in probes(target, &job.config) {
         let empty = || Table::new(&probe.stream.fields);
-        let table = recording.outputs.get(&probe.unit).cloned().unwrap_or_else(empty);
+        let tables = match probe.stream.direction {
+            Direction::Input => &recording.inputs,
+            Direction::Output => &recording.outputs,
+        };
+        let table = tables.get(&probe.unit).cloned().unwrap_or_else(empty);
         case.probes.push((probe, table));
     }
     case
@@ -150,23 +154,73 @@ pub fn random_polygons(seed: u64, formats: Formats, size: [u32; 2], count: u32) 
         .collect()
 }
 
+/// Small polygons one after another in the same place, for either eye first: a slot that is still in
+/// the queue holds the place that the next one reads.
+fn crowd(seed: u64, formats: Formats, size: [u32; 2], count: u32) -> Vec<Polygon> {
+    let mut triangles = Triangles::new(seed, formats, size[0], size[1]);
+    let mut place = Polygon::default();
+    let polygon = |id| {
+        if id % 8 == 0 {
+            let class = [Class::Px2, Class::Px8][triangles.rng.usize(..2)];
+            place = triangles.triangle(class);
+        }
+        let mut polygon = Polygon { id, ..place.clone() };
+        let rng = &mut triangles.rng;
+        let (swap, colour) = (rng.bool(), rng.u32(..));
+        // Few depths, so that some are equal and some differ by one.
+        let depth = DEPTH_MAX / 2 + rng.u32(..4);
+        if rng.u32(..4) == 0 {
+            polygon.eyes = Eyes::One(Eye::BOTH[rng.usize(..2)]);
+        }
+        for vertex in &mut polygon.vertices {
+            if swap {
+                vertex.x.swap(0, 1);
+            }
+            (vertex.depth, vertex.colour) = (depth, [Rgba::from_word(colour); 2]);
+        }
+        polygon
+    };
+    (0..count).map(polygon).collect()
+}
+
 /// Random polygons in a small window, so that they overlap: about `beats` beats.
 pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case {
+    let f = Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
-    let size = [rng.u32(24..120), rng.u32(16..90)];
+    let crowded = rng.u32(..4) == 0;
+    let size = match crowded {
+        true => [rng.u32(4..24), rng.u32(4..24)],
+        false => [rng.u32(24..120), rng.u32(16..90)],
+    };
     let options = options(rng, config);
     let minimal = target == Target::Minimal;
     let nothing = job(config, options, size, &[]);
     let mut tape = Tape::new(&nothing, minimal, false);
     let mut drawn = 0;
     for _ in 0..beats {
-        let polygons = random_polygons(rng.u64(..), Formats::new(config), size, 16);
+        let mut polygons = match crowded {
+            true => crowd(rng.u64(..), f, size, 64),
+            false => random_polygons(rng.u64(..), f, size, 16),
+        };
+        if config.tilt {
+            polygons.iter_mut().for_each(|polygon| tilt(polygon, rng));
+        }
         drawn += job(config, options, size, &polygons).run(minimal, tape.sink()).beats();
         if drawn >= beats as u64 {
             break;
         }
     }
     whole(target, &nothing, "random polygons", tape)
+}
+
+/// Shears the right eye's view up or down by at most a pixel a column, as a tilted head does; leaves
+/// some polygons upright.
+fn tilt(polygon: &mut Polygon, rng: &mut Rng) {
+    let slant = [0, 0, 256, -256, rng.i32(-256..=256), rng.i32(-40..=40)][rng.usize(..6)];
+    let origin = polygon.vertices[0].x[0];
+    for vertex in &mut polygon.vertices {
+        vertex.y[1] += (vertex.x[0] - origin) * slant / 256;
+    }
 }
 
 fn job<'a>(config: &Config, options: Options, size: [u32; 2], polygons: &'a [Polygon]) -> Job<'a> {
@@ -182,35 +236,65 @@ fn job<'a>(config: &Config, options: Options, size: [u32; 2], polygons: &'a [Pol
     }
 }
 
-/// Every kind of bad setup between good polygons, and beats that no polygon owns.
+/// Every kind of bad setup between good polygons, beats that no polygon owns, polygons on top of
+/// each other, and both eyes on one display that is turned, where a place passes every
+/// part of the way to it.
 pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let f = Formats::new(config);
-    let size = [64, 48];
+    let size = [48, 36];
     let minimal = target == Target::Minimal;
-    let polygons = random_polygons(5, f, size, 12);
+    let polygons = random_polygons(5, f, size, 80);
     let options = Options { cost_rule: false, ..Options::new(config) };
     let good = job(config, options, size, &polygons);
     let mut tape = Tape::new(&good, minimal, false);
     good.run(minimal, &mut Spoiler { sink: tape.sink(), formats: f, polygon: 0 });
     let spoiled = whole(target, &good, "bad setups", tape);
 
-    let mut tape = Tape::new(&good, minimal, false);
+    // Inside, stray beats show whatever the registers held after power-up, so nothing inside is
+    // compared; what follows is drawn for one eye, which is seen at the outputs.
+    let mut alone = polygons[..12].to_vec();
+    alone.retain(|polygon| polygon.vertices.len() == 3);
+    alone.iter_mut().for_each(|p| p.eyes = Eyes::One(Eye::BOTH[p.id as usize % 2]));
+    let alone = job(config, options, size, &alone);
+    let mut tape = Tape::new(&alone, minimal, false);
     let stray =
         PrimaryBeat { op: Op::Step, mask: Mask::new(1, &f), centre: true, ..Default::default() };
     tape.sink().beat(&stray);
     tape.sink().beat(&PrimaryBeat { op: Op::Row, last: true, ..stray });
-    good.run(minimal, tape.sink());
-    let mut stray = whole(target, &good, "beats before the first polygon", tape);
-    // Inside, such beats show whatever the registers held after power-up.
+    alone.run(minimal, tape.sink());
+    let mut stray = whole(target, &alone, "beats before the first polygon", tape);
     stray.probes.clear();
-    vec![spoiled, stray]
+
+    let crowd = crowd(6, f, [16, 12], 240);
+    let crowd = job(config, options, [16, 12], &crowd);
+    let mut tape = Tape::new(&crowd, minimal, false);
+    crowd.run(minimal, tape.sink());
+    let crowded = whole(target, &crowd, "polygons on top of each other", tape);
+
+    let turned = Options { arrangement: Arrangement::Rotated, single: true, ..options };
+    let turned = job(config, turned, size, &polygons[..12]);
+    let mut tape = Tape::new(&turned, minimal, false);
+    turned.run(minimal, tape.sink());
+    let turned = whole(target, &turned, "one display, rotated", tape);
+    vec![spoiled, stray, crowded, turned]
 }
 
-/// Passes polygons on, and repeats each with its setup spoilt in turn.
+/// Passes polygons on, every second one with its setup spoilt, or put just inside what is allowed.
 struct Spoiler<'a, S> {
     sink: &'a mut S,
     formats: Formats,
     polygon: usize,
+}
+
+impl<S> Spoiler<'_, S> {
+    /// How the present polygon is treated.
+    fn way(&self) -> usize {
+        if self.polygon % 2 == 0 {
+            self.polygon / 2 % 12
+        } else {
+            12
+        }
+    }
 }
 
 impl<S: Sink> Sink for Spoiler<'_, S> {
@@ -220,14 +304,21 @@ impl<S: Sink> Sink for Spoiler<'_, S> {
     }
     fn records(&mut self, setup: &Setup, edges: &Edges) {
         let f = &self.formats;
-        let far = i64::from(f.max_size + f.guard_band) + START_SLACK;
-        let spoilt = match self.polygon % 9 {
+        let first = -(i64::from(f.guard_band) + START_SLACK) << FRACTION_BITS;
+        let end = (i64::from(f.max_size) << FRACTION_BITS) - first;
+        let step = |step: i64| Setup { x_step: Scale::new(step, f), ..*setup };
+        let start = |start: i64| Setup { x_start: SecondaryX::new(start, f), ..*setup };
+        let treated = match self.way() {
             0 => Setup { mode: Mode(4 + setup.mode.0), ..*setup },
-            1 => Setup { x_step: Scale::new(SCALE_ONE + 1, f), ..*setup },
-            2 => Setup { x_step: Scale::new(SCALE_MIN - 1, f), ..*setup },
-            3 => Setup { x_start: SecondaryX::wrap(far << FRACTION_BITS, f), ..*setup },
-            4 => Setup { lend: true, ..*setup },
-            5 => Setup { x_start: SecondaryX::wrap(-(far << FRACTION_BITS), f), ..*setup },
+            1 => step(SCALE_ONE + 1),
+            2 => step(SCALE_ONE),
+            3 => step(SCALE_MIN - 1),
+            4 => step(SCALE_MIN),
+            5 => start(first - 1),
+            6 => start(first),
+            7 => start(end),
+            8 => start(end - 1),
+            9 => Setup { lend: true, ..*setup },
             _ => *setup,
         };
         let empty = Edges {
@@ -236,11 +327,11 @@ impl<S: Sink> Sink for Spoiler<'_, S> {
             e2_a: Slope::default(),
             ..*edges
         };
-        let edges = if self.polygon % 9 == 6 { &empty } else { edges };
-        self.sink.records(&spoilt, edges);
+        let edges = if self.way() == 10 { &empty } else { edges };
+        self.sink.records(&treated, edges);
     }
     fn beat(&mut self, beat: &PrimaryBeat) {
-        let illegal = self.polygon % 9 == 7 && beat.op == Op::Row;
+        let illegal = self.way() == 11 && beat.op == Op::Row;
         let op = if illegal { Op::Reserved } else { beat.op };
         self.sink.beat(&PrimaryBeat { op, ..*beat });
     }

@@ -74,6 +74,10 @@ impl Run<'_> {
             let mismatch = stopped(fault, library.interface().module, cycle);
             return Outcome::Mismatch(Box::new(mismatch));
         }
+        // A beat that waits shows at once where it leads without a register: look at its unit first.
+        if let Some(probed) = self.suspect(model) {
+            return self.probe_fault(model, cycle, 1 << probed);
+        }
         let number = faulty.trailing_zeros() as usize;
         let bit = 1u32 << number;
         let fault = if state.held & !seen & bit != 0 {
@@ -90,6 +94,17 @@ impl Run<'_> {
         let actual = payload(model, &library.layout().streams[number]);
         let fields = if fault == Fault::Withdrawn { &[][..] } else { &stream.fields };
         self.mismatch(fault, (number, place), cycle, fields, actual)
+    }
+
+    /// The first probed stream that offers a wrong beat, not taken yet: those taken were compared.
+    fn suspect(&self, model: &Model) -> Option<usize> {
+        let layout = model.library().layout();
+        bits(self.watched).find(|&probed| {
+            let (_, stream) = &layout.probed[probed];
+            let waits = model.peek(stream.valid()) != 0 && model.peek(stream.ready()) == 0;
+            let row = self.row(self.streams(model) + probed);
+            waits && !row.is_empty() && payload(model, stream) != row
+        })
     }
 
     /// The lowest of the faulty probed streams.

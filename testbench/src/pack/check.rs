@@ -3,6 +3,8 @@
 use super::*;
 use std::fs;
 use std::path::{Path, PathBuf};
+use wheatstone_golden::config::Config;
+use wheatstone_golden::interface::{Direction, Stream};
 use wheatstone_golden::targets::Target;
 
 /// A pack that was found sound.
@@ -30,6 +32,10 @@ pub fn check(folder: &Path) -> Result<Vec<Checked>, PackError> {
         return Err(PackError::Missing { path: folder.into() });
     }
     folders.iter().map(|folder| check_one(folder)).collect()
+}
+
+fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.collect::<Vec<_>>().join(", ")
 }
 
 /// Compares what a manifest says with what is so.
@@ -78,11 +84,27 @@ impl Checker<'_> {
         Ok(content)
     }
 
-    fn port(&self, port: &Port) -> Result<(), PackError> {
+    fn port(&self, port: &Port, stream: &Stream) -> Result<(), PackError> {
         let field = |name: &str| format!("ports.{}.{name}", port.name);
+        let direction = match stream.direction {
+            Direction::Input => "input",
+            Direction::Output => "output",
+        };
+        self.same(&field("direction"), port.direction.as_str(), direction)?;
+        self.same(
+            &field("answers"),
+            port.answers.as_deref().unwrap_or("nothing"),
+            stream.answers.unwrap_or("nothing"),
+        )?;
+        let found = list(port.fields.iter().map(|f| f.name.as_str()));
+        self.same(&field("fields"), found, list(stream.fields.iter().map(|f| f.name)))?;
         let mut lsb = 0;
         for packed in &port.fields {
             self.same(&field(&format!("fields.{}.lsb", packed.name)), packed.lsb, lsb)?;
+            if !(1..=64).contains(&packed.bits) {
+                let name = field(&format!("fields.{}.bits", packed.name));
+                return self.same(&name, packed.bits.to_string(), "1 to 64".into());
+            }
             lsb = lsb.saturating_add(packed.bits);
         }
         self.same(&field("bits"), port.bits, lsb)?;
@@ -124,15 +146,17 @@ fn check_one(folder: &Path) -> Result<Checked, PackError> {
             .map(|()| unreachable!("the two texts differ"));
     }
     let manifest: Manifest = serde_json::from_str(&text).map_err(fault)?;
-    if Target::named(&manifest.target).is_none() {
-        checker.same(
-            "target",
-            manifest.target.as_str(),
-            "a target that `wheatstone list` names",
-        )?;
-    }
-    for port in &manifest.ports {
-        checker.port(port)?;
+    let Some(target) = Target::named(&manifest.target) else {
+        let (found, expected) = (manifest.target.as_str(), "a target that `wheatstone list` names");
+        return checker.same("target", found, expected).map(|()| unreachable!("no target has it"));
+    };
+    checker.same("module", manifest.module.as_str(), target.module())?;
+    // Widths depend on the parameters; names do not.
+    let streams = target.interface(&Config::DEFAULT).streams;
+    let found = list(manifest.ports.iter().map(|p| p.name.as_str()));
+    checker.same("ports", found, list(streams.iter().map(|s| s.name)))?;
+    for (port, stream) in manifest.ports.iter().zip(&streams) {
+        checker.port(port, stream)?;
     }
     for file in &manifest.bench {
         checker.content(&format!("bench.{}", file.file), file)?;

@@ -2,14 +2,14 @@
 
 use super::run::{MemoryFault, Ran};
 use super::{Plan, RegressionError, Waves};
-use crate::{waves, Fault, Library, Mismatch, Outcome, Stalls, TraceWindow};
+use crate::{waves, Fault, Library, Mismatch, Outcome, Place, Probe, Stalls, TraceWindow};
 use serde::Serialize;
 use std::fmt;
 use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use wheatstone_golden::formats::Eye;
-use wheatstone_golden::interface::Beat;
+use wheatstone_golden::interface::{Beat, Direction};
 use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::pipeline::{Mode, Op, Pixel, PrimaryBeat, Request, Setup};
 use wheatstone_golden::record::Recording;
@@ -103,16 +103,23 @@ impl Failure {
         };
         match &ran.outcome {
             Outcome::Mismatch(mismatch) => {
-                failure.mismatch(target, mismatch, ran.recording.as_deref())
+                failure.mismatch(mismatch, ran.recording.as_deref());
+                // What comes into a unit wrong is not the unit's fault.
+                if goes_in(library, &mismatch.place) {
+                    failure.unit = target.name().into();
+                }
             }
             Outcome::Hung(hung) => failure.cycle = Some(hung.cycle),
             Outcome::Passed(_) => {}
         }
-        // A mismatch of streams comes first: what is stale or wrong in memory follows from it.
-        if matches!(ran.outcome, Outcome::Passed(_)) {
-            if let Some(fault) = ran.memory.first() {
-                failure.memory(fault);
-            }
+        // All pixels before the first mismatch were right, so a stale read is its cause; a wrong
+        // frame buffer is its consequence.
+        let fault = match &ran.outcome {
+            Outcome::Passed(_) => ran.memory.first(),
+            _ => ran.memory.iter().find(|fault| matches!(fault, MemoryFault::Stale { .. })),
+        };
+        if let Some(fault) = fault {
+            failure.memory(fault);
         }
         if plan.waves != Waves::Never {
             if let Some(cycle) = failure.cycle {
@@ -126,7 +133,7 @@ impl Failure {
         Ok(failure)
     }
 
-    fn mismatch(&mut self, target: Target, mismatch: &Mismatch, recording: Option<&Recording>) {
+    fn mismatch(&mut self, mismatch: &Mismatch, recording: Option<&Recording>) {
         self.cycle = Some(mismatch.cycle);
         self.stream = Some(mismatch.place.stream.into());
         if let Some(instance) = &mismatch.place.instance {
@@ -153,7 +160,6 @@ impl Failure {
             (_, Some(instance)) => recording.and_then(|r| locate(r, instance, mismatch.beat, self)),
             _ => None,
         };
-        let _ = target;
     }
 
     fn memory(&mut self, fault: &MemoryFault) {
@@ -162,6 +168,7 @@ impl Failure {
                 self.what = format!("background read {read} gave a stale value");
                 self.unit = "slot_queue".into();
                 self.stream = Some("response".into());
+                self.field = None;
                 self.expected = Some(format!("{expected:?}"));
                 self.actual = Some(format!("{actual:?}"));
             }
@@ -173,6 +180,13 @@ impl Failure {
             }
         }
     }
+}
+
+/// Whether a stream is an input of a unit inside a system.
+fn goes_in(library: &Library, place: &Place) -> bool {
+    let of_unit = |probe: &&Probe| place.instance.as_ref() == Some(&probe.instance);
+    let mut streams = library.probes().iter().filter(of_unit).flat_map(|probe| &probe.streams);
+    streams.any(|s| s.name == place.stream && s.direction == Direction::Input)
 }
 
 fn location(
