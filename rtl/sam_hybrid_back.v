@@ -115,9 +115,10 @@ module sam_hybrid_back #(
     wire filtered      = s2_average_i & (count_i != {`SAM_COUNT_BITS{1'b0}});
     wire integrated    = s2_planes_i & (INTEGRATED != 0);
 
-    wire [RB-1:0] gathered = filtered ? average_i : sample_i[RB-1:0];
-    wire [RB-1:0] rgba     = {
-        gathered[RB-1:`SAM_RGB_BITS], integrated ? plane_rgb_i : gathered[`SAM_RGB_BITS-1:0]
+    // A colour that is not the filter's. The choice between the two comes behind the register, as
+    // the filter's exact division fills the clock before it.
+    wire [RB-1:0] plain = {
+        sample_i[RB-1:`SAM_RGB_BITS], integrated ? plane_rgb_i : sample_i[`SAM_RGB_BITS-1:0]
     };
     wire [D-1:0]  depth;
 
@@ -134,24 +135,32 @@ module sam_hybrid_back #(
     wire           slot_valid, slot_ready;
     wire           slot_primary, slot_secondary, slot_eye, slot_primary_write, slot_secondary_write;
     wire [2*C-1:0] slot_primary_place, slot_secondary_place;
-    wire [RB-1:0]  slot_primary_rgba, slot_secondary_rgba;
+    wire           slot_average_alpha, slot_average_rgb;
+    wire [RB-1:0]  slot_primary_rgba, slot_average, slot_plain;
     wire [AB-1:0]  slot_primary_area, slot_secondary_area;
     wire [D-1:0]   slot_primary_depth, slot_secondary_depth;
 
     // Beats without a pixel end here. They are taken when any beat would be, so that the coverage
     // is not in the path of s3_ready.
-    sam_stage #(.WIDTH(5 + 4 * C + 2 * (RB + AB + D))) u_slot (
+    sam_stage #(.WIDTH(7 + 4 * C + 3 * RB + 2 * (AB + D))) u_slot (
         .clk_i(clk_i), .rst_i(rst_i),
         .in_valid_i(s2_valid_i & (primary | secondary)), .in_ready_o(s3_ready_o),
         .in_data_i({primary, secondary, s2_eye_i, primary_write, centre,
+                    filtered, filtered & ~integrated,
                     s2_place_i, s2_rgba_i, primary_area, s2_depth_i,
-                    column_i, row_i, rgba, area, depth}),
+                    column_i, row_i, average_i, plain, area, depth}),
         .out_valid_o(slot_valid), .out_ready_i(slot_ready),
         .out_data_o({slot_primary, slot_secondary, slot_eye, slot_primary_write, slot_secondary_write,
+                     slot_average_alpha, slot_average_rgb,
                      slot_primary_place, slot_primary_rgba, slot_primary_area, slot_primary_depth,
-                     slot_secondary_place, slot_secondary_rgba, slot_secondary_area,
+                     slot_secondary_place, slot_average, slot_plain, slot_secondary_area,
                      slot_secondary_depth})
     );
+
+    wire [RB-1:0] slot_secondary_rgba = {
+        slot_average_alpha ? slot_average[RB-1:`SAM_RGB_BITS] : slot_plain[RB-1:`SAM_RGB_BITS],
+        slot_average_rgb ? slot_average[`SAM_RGB_BITS-1:0] : slot_plain[`SAM_RGB_BITS-1:0]
+    };
 
     wire           pixel_valid, pixel_ready, pixel_visible, colour_valid, colour_ready, colour_visible;
     wire [RB-1:0]  pixel_rgba;

@@ -112,20 +112,24 @@ module sam_slot_queue #(
     wire [N-1:0] answer_index = answer_q[N-1:0];
     wire [N-1:0] leave_index  = leave_q[N-1:0];
 
-    wire full    = enter_q == {~leave_q[N], leave_index};
     wire empty   = enter_q == leave_q;
     wire settled = enter_q == answer_q;
 
     wire push, pop;
 
-    // Three memories, by who reads: blend, both, the output. Without write enables per pixel, as a
-    // pixel that a slot has not got is not looked at.
+    // Of its own register, as all stages before wait for it.
+    reg        full_q;
+    wire [N:0] enter_next = enter_q + {{N{1'b0}}, 1'b1};
+    wire       last_place = enter_next == {~leave_q[N], leave_index};
+
+    // Three memories, by who reads: blend, both, the output. The free place is written whether a
+    // slot enters or not, which keeps the path to the write enables short.
     reg [`SAM_RGB_BITS-1:0]              source_q [0:SLOTS-1];
     reg [A+D+8:0]                        tested_q [0:SLOTS-1];
     reg [4*C+`SAM_RGBA_BITS+A+D+3:0]     placed_q [0:SLOTS-1];
 
     always @(posedge clk_i) begin
-        if (push) begin
+        if (~full_q) begin
             source_q[enter_index] <= slot_secondary_rgba_i[`SAM_RGB_BITS-1:0];
             tested_q[enter_index] <= {
                 slot_secondary_i, slot_secondary_rgba_i[`SAM_RGBA_BITS-1:`SAM_RGB_BITS],
@@ -170,44 +174,58 @@ module sam_slot_queue #(
     assign colour_ready_o       = ~empty & leave_secondary & out_ready_i;
     assign pop                  = out_valid_o & out_ready_i;
 
-    // Read: which slots hold its place is found when it enters; it then waits for them to leave.
+    // Read: which slots hold its place is found when it enters; it then waits for them to leave. A
+    // second read waits behind the first, so that slots enter without waiting for request_ready_i.
     reg              read_q;
-    reg              read_eye_q;
-    reg [C-1:0]      read_x_q;
-    reg [C-1:0]      read_y_q;
+    reg [2*C:0]      read_place_q;
     reg [SLOTS-1:0]  blocked_q;
+    reg              next_q;
+    reg [2*C:0]      next_place_q;
+    reg [SLOTS-1:0]  next_blocked_q;
     wire [SLOTS-1:0] same_place;
     wire [SLOTS-1:0] leaving;
+    reg  [SLOTS-1:0] left_q;
 
-    wire request_taken = request_valid_o & request_ready_i;
+    wire             enter_read    = push & slot_secondary_i;
+    wire [2*C:0]     enter_place   = {~slot_eye_i, slot_secondary_x_i, slot_secondary_y_i};
+    wire             keep          = read_q & ~(request_valid_o & request_ready_i);
 
     assign push            = slot_valid_i & slot_ready_o;
-    assign slot_ready_o    = ~full & (~slot_secondary_i | ~read_q | request_taken);
+    assign slot_ready_o    = ~full_q & (~slot_secondary_i | ~next_q);
     assign request_valid_o = read_q & (blocked_q == {SLOTS{1'b0}});
-    assign request_eye_o   = read_eye_q;
-    assign request_x_o     = read_x_q;
-    assign request_y_o     = read_y_q;
+    assign {request_eye_o, request_x_o, request_y_o} = read_place_q;
 
     always @(posedge clk_i) begin
         if (rst_i) begin
             enter_q  <= {(N + 1){1'b0}};
             answer_q <= {(N + 1){1'b0}};
             leave_q  <= {(N + 1){1'b0}};
+            full_q   <= 1'b0;
             read_q   <= 1'b0;
+            next_q   <= 1'b0;
         end else begin
-            if (push) enter_q <= enter_q + {{N{1'b0}}, 1'b1};
+            full_q <= (full_q | (push & last_place)) & ~pop;
+            if (push) enter_q <= enter_next;
             if (~settled & (~answer_secondary | answered)) answer_q <= answer_q + {{N{1'b0}}, 1'b1};
             if (pop) leave_q <= leave_q + {{N{1'b0}}, 1'b1};
-            read_q <= (push & slot_secondary_i) | (read_q & ~request_taken);
+            read_q <= keep | next_q | enter_read;
+            next_q <= keep & (next_q | enter_read);
         end
 
-        if (push & slot_secondary_i) begin
-            read_eye_q <= ~slot_eye_i;
-            read_x_q   <= slot_secondary_x_i;
-            read_y_q   <= slot_secondary_y_i;
-            blocked_q  <= same_place & ~leaving;
+        // A clock late, which keeps the path from the output short. The place may be taken again by
+        // then, but not yet be found by a read.
+        left_q <= leaving;
+        if (~keep) begin
+            read_place_q <= next_q ? next_place_q : enter_place;
+            blocked_q    <= next_q ? next_blocked_q & ~left_q : same_place;
         end else begin
-            blocked_q  <= blocked_q & ~leaving;
+            blocked_q    <= blocked_q & ~left_q;
+        end
+        if (~next_q) begin
+            next_place_q   <= enter_place;
+            next_blocked_q <= same_place;
+        end else begin
+            next_blocked_q <= next_blocked_q & ~left_q;
         end
     end
 
@@ -234,7 +252,7 @@ module sam_slot_queue #(
                 if (rst_i) occupied_q <= 1'b0;
                 else       occupied_q <= (push & (enter_index == i)) | (occupied_q & ~leaving[i]);
 
-                if (push & (enter_index == i)) begin
+                if (~full_q & (enter_index == i)) begin
                     primary_q         <= slot_primary_i;
                     secondary_q       <= slot_secondary_i;
                     eye_q             <= slot_eye_i;
