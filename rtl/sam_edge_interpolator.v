@@ -62,9 +62,13 @@ module sam_edge_interpolator #(
     reg [`SAM_LOW_BITS-1:0] low_q;
 
     wire is_load = beat_op_i == `SAM_OP_LOAD;
-    (* keep *) wire is_row  = beat_op_i == `SAM_OP_ROW;
-    (* keep *) wire moves   = beat_move_i & ~is_load;
     wire accept  = beat_valid_i & beat_ready_o;
+
+    // Kept as they are, or synthesis folds them into the adder's operands and lengthens its path.
+    (* keep *) wire is_row;
+    (* keep *) wire moves;
+    assign is_row = beat_op_i == `SAM_OP_ROW;
+    assign moves  = beat_move_i & ~is_load;
 
     // A ROW that moves adds row + a: summed at LOAD, so that every beat adds two numbers, not three.
     // A LOAD adds nothing to its start, which leaves no choice to be made behind the adder.

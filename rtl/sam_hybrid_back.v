@@ -3,7 +3,7 @@
 //
 //   coverage, choice of colour and depth -> slot -> slot queue, blend -> redirect
 //
-// Latency: three clocks to `request`, three from `response` to `left` and `right`.
+// Latency: two clocks to `request`, three from `response` to `left` and `right`.
 // Reset: rst_i empties stages and queue; no data is reset.
 // Paper: section 5, figure 4.
 `include "sam_formats.vh"
@@ -162,9 +162,13 @@ module sam_hybrid_back #(
         slot_average_rgb ? slot_average[`SAM_RGB_BITS-1:0] : slot_plain[`SAM_RGB_BITS-1:0]
     };
 
+    wire           answer_valid, answer_ready, answer_visible;
+    wire [RB-1:0]  answer_rgba;
+    wire [AB-1:0]  answer_area;
     wire           pixel_valid, pixel_ready, pixel_visible, colour_valid, colour_ready, colour_visible;
     wire [RB-1:0]  pixel_rgba;
     wire [AB-1:0]  pixel_area;
+    wire [`SAM_RGB_BITS-1:0] pixel_background;
     wire [`SAM_RGB_BITS-1:0] colour_rgb;
     wire           out_valid, out_ready, out_primary, out_secondary, out_eye;
     wire           out_primary_write, out_secondary_write;
@@ -192,8 +196,8 @@ module sam_hybrid_back #(
         .request_eye_o(request_eye_o), .request_x_o(request_x_o), .request_y_o(request_y_o),
         .response_valid_i(response_valid_i), .response_ready_o(response_ready_o),
         .response_depth_i(response_depth_i),
-        .pixel_valid_o(pixel_valid), .pixel_ready_i(pixel_ready), .pixel_rgba_o(pixel_rgba),
-        .pixel_area_o(pixel_area), .pixel_visible_o(pixel_visible),
+        .pixel_valid_o(answer_valid), .pixel_ready_i(answer_ready), .pixel_rgba_o(answer_rgba),
+        .pixel_area_o(answer_area), .pixel_visible_o(answer_visible),
         .colour_valid_i(colour_valid), .colour_ready_o(colour_ready), .colour_rgb_i(colour_rgb),
         .colour_visible_i(colour_visible),
         .out_valid_o(out_valid), .out_ready_i(out_ready), .out_primary_o(out_primary),
@@ -206,11 +210,20 @@ module sam_hybrid_back #(
         .out_secondary_depth_o(out_secondary_depth), .out_secondary_write_o(out_secondary_write)
     );
 
+    // Between memory and blend, whose multipliers have fixed places on a chip and are far from both.
+    sam_stage #(.WIDTH(1 + RB + AB + `SAM_RGB_BITS)) u_answer (
+        .clk_i(clk_i), .rst_i(rst_i),
+        .in_valid_i(answer_valid), .in_ready_o(answer_ready),
+        .in_data_i({answer_visible, answer_rgba, answer_area, response_rgb_i}),
+        .out_valid_o(pixel_valid), .out_ready_i(pixel_ready),
+        .out_data_o({pixel_visible, pixel_rgba, pixel_area, pixel_background})
+    );
+
     sam_blend #(.ANTIALIAS(ANTIALIAS), .TAG_BITS(1)) u_blend (
         .clk_i(clk_i), .rst_i(rst_i),
         .pixel_valid_i(pixel_valid), .pixel_ready_o(pixel_ready),
         .pixel_rgb_i(pixel_rgba[`SAM_RGB_BITS-1:0]), .pixel_alpha_i(pixel_rgba[RB-1:`SAM_RGB_BITS]),
-        .pixel_area_i(pixel_area), .pixel_background_i(response_rgb_i), .pixel_tag_i(pixel_visible),
+        .pixel_area_i(pixel_area), .pixel_background_i(pixel_background), .pixel_tag_i(pixel_visible),
         .colour_valid_o(colour_valid), .colour_ready_i(colour_ready),
         .colour_rgb_o(colour_rgb), .colour_tag_o(colour_visible)
     );
