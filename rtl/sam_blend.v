@@ -1,7 +1,7 @@
 // Blending of a secondary pixel with its background: C = S t + (1 - t) B, with t from alpha and
 // from the covered area.
 //
-// Latency: two clocks.
+// Latency: two clocks: the difference S - B and t, then their product. The sum with B follows.
 // Reset: rst_i clears the valids of the two stages only.
 // Paper: section 5.7, equation 2.
 `include "sam_formats.vh"
@@ -40,13 +40,13 @@ module sam_blend #(
         end
     endgenerate
 
-    reg                      factor_valid_q;
-    reg [8:0]                factor_q;
-    reg [`SAM_RGB_BITS-1:0]  background_q;
-    reg [TAG_BITS-1:0]       factor_tag_q;
-    reg                      colour_valid_q;
-    reg [`SAM_RGB_BITS-1:0]  colour_q;
-    reg [TAG_BITS-1:0]       colour_tag_q;
+    reg                     factor_valid_q;
+    reg [8:0]               factor_q;
+    reg [`SAM_RGB_BITS-1:0] factor_background_q;
+    reg [TAG_BITS-1:0]      factor_tag_q;
+    reg                     colour_valid_q;
+    reg [`SAM_RGB_BITS-1:0] colour_background_q;
+    reg [TAG_BITS-1:0]      colour_tag_q;
 
     // 255 must become 256, so that an opaque pixel replaces the background exactly.
     wire [8:0] alpha = {1'b0, pixel_alpha_i} + {8'd0, pixel_alpha_i[7]};
@@ -76,37 +76,42 @@ module sam_blend #(
         end
 
         if (pixel_valid_i & pixel_ready_o) begin
-            factor_q     <= factor;
-            background_q <= pixel_background_i;
-            factor_tag_q <= pixel_tag_i;
+            factor_q            <= factor;
+            factor_background_q <= pixel_background_i;
+            factor_tag_q        <= pixel_tag_i;
         end
-        if (factor_valid_q & colour_free) colour_tag_q <= factor_tag_q;
+        if (factor_valid_q & colour_free) begin
+            colour_background_q <= factor_background_q;
+            colour_tag_q        <= factor_tag_q;
+        end
     end
 
     genvar i;
     generate
         for (i = 0; i < CHANNELS; i = i + 1) begin : g_channel
-            wire [7:0] source     = pixel_rgb_i[8*i +: 8];
-            wire [7:0] background = pixel_background_i[8*i +: 8];
-
             // S - B, nine bits signed.
-            reg  signed [8:0] difference_q;
-            wire signed [9:0] weight = {1'b0, factor_q};
-            // Only 16 bits of the product matter, because the sum is a channel: 0 to 255.
+            reg  signed [8:0]  difference_q;
+            wire signed [9:0]  weight  = {1'b0, factor_q};
             wire signed [18:0] product = difference_q * weight;
-            wire [15:0]        sum     = {background_q[8*i +: 8], 8'h80} + product[15:0];
+            // The product in whole steps, and one bit for the rounding: it is the carry into the
+            // sum, which fits a channel, so that higher bits do not matter.
+            reg  [8:0] change_q;
+            wire [8:0] sum = {colour_background_q[8*i +: 8], 1'b1} + change_q;
 
             always @(posedge clk_i) begin
-                if (pixel_valid_i & pixel_ready_o) difference_q <= {1'b0, source} - {1'b0, background};
-                if (factor_valid_q & colour_free)  colour_q[8*i +: 8] <= sum[15:8];
+                if (pixel_valid_i & pixel_ready_o) begin
+                    difference_q <= {1'b0, pixel_rgb_i[8*i +: 8]} - {1'b0, pixel_background_i[8*i +: 8]};
+                end
+                if (factor_valid_q & colour_free) change_q <= product[15:7];
             end
 
-            wire unused = &{1'b0, product[18:16], sum[7:0]};
+            assign colour_rgb_o[8*i +: 8] = sum[8:1];
+
+            wire unused = &{1'b0, product[18:16], product[6:0], sum[0]};
         end
     endgenerate
 
     assign colour_valid_o = colour_valid_q;
-    assign colour_rgb_o   = colour_q;
     assign colour_tag_o   = colour_tag_q;
 endmodule
 

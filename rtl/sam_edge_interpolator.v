@@ -62,32 +62,35 @@ module sam_edge_interpolator #(
     reg [`SAM_LOW_BITS-1:0] low_q;
 
     wire is_load = beat_op_i == `SAM_OP_LOAD;
-    wire is_row  = beat_op_i == `SAM_OP_ROW;
     wire accept  = beat_valid_i & beat_ready_o;
 
-    // The adder is idle at LOAD: it prepares row + a then, so that a ROW adds two numbers, not three.
-    wire [SLOPE_BITS-1:0] a      = is_load ? beat_a_i : a_q;
-    wire [BITS-1:0]       a_wide = {{SIGNS{a[SLOPE_BITS-1]}}, a[SLOPE_BITS-2:0]};
-    wire [BITS-1:0]       from   = is_load ? beat_row_i : is_row ? saved_q : value_q;
-    wire [BITS-1:0]       across = (is_load | beat_move_i) ? a_wide : {BITS{1'b0}};
-    wire [BITS-1:0]       by     = is_row ? (beat_move_i ? row_a_q : row_q) : across;
-    wire [BITS-1:0]       sum;
+    // Kept as they are, or synthesis folds them into the adder's operands and lengthens its path.
+    (* keep *) wire is_row;
+    (* keep *) wire moves;
+    assign is_row = beat_op_i == `SAM_OP_ROW;
+    assign moves  = beat_move_i & ~is_load;
+
+    // A ROW that moves adds row + a: summed at LOAD, so that every beat adds two numbers, not three.
+    // A LOAD adds nothing to its start, which leaves no choice to be made behind the adder.
+    wire [BITS-1:0] load_a = {{SIGNS{beat_a_i[SLOPE_BITS-1]}}, beat_a_i[SLOPE_BITS-2:0]};
+    wire [BITS-1:0] a      = {{SIGNS{a_q[SLOPE_BITS-1]}}, a_q[SLOPE_BITS-2:0]};
+    wire [BITS-1:0] from   = is_load ? beat_start_i : is_row ? saved_q : value_q;
+    wire [BITS-1:0] by     = is_row ? (moves ? row_a_q : row_q) : moves ? a : {BITS{1'b0}};
+    wire [BITS-1:0] value_d;
 
     generate
         if (TILT == 0) begin : g_upright
-            assign sum = from + by;
+            assign value_d = from + by;
             wire unused = &{1'b0, beat_y_move_i};
         end else begin : g_tilt
             // y_move * b, a negative one as complement and carry.
-            wire [BITS-1:0] b_wide = {{SIGNS{b_q[SLOPE_BITS-1]}}, b_q[SLOPE_BITS-2:0]};
-            wire            minus  = beat_y_move_i[1] & ~is_load;
-            wire            once   = beat_y_move_i[0] & ~is_load;
-            wire [BITS-1:0] size   = once ? b_wide : minus ? {b_wide[BITS-2:0], 1'b0} : {BITS{1'b0}};
-            assign sum = from + by + (size ^ {BITS{minus}}) + {{(BITS - 1){1'b0}}, minus};
+            wire [BITS-1:0] b     = {{SIGNS{b_q[SLOPE_BITS-1]}}, b_q[SLOPE_BITS-2:0]};
+            wire            minus = beat_y_move_i[1] & ~is_load;
+            wire            once  = beat_y_move_i[0] & ~is_load;
+            wire [BITS-1:0] size  = once ? b : minus ? {b[BITS-2:0], 1'b0} : {BITS{1'b0}};
+            assign value_d = from + by + (size ^ {BITS{minus}}) + {{(BITS - 1){1'b0}}, minus};
         end
     endgenerate
-
-    wire [BITS-1:0] value_d = is_load ? beat_start_i : sum;
 
     assign beat_ready_o = ~valid_q | value_ready_i;
 
@@ -103,7 +106,7 @@ module sam_edge_interpolator #(
                 b_q     <= beat_b_i;
                 low_q   <= beat_low_i;
                 row_q   <= beat_row_i;
-                row_a_q <= sum;
+                row_a_q <= beat_row_i + load_a;
             end
         end
     end

@@ -1,7 +1,7 @@
 // Box filter: the average of the primary pixels that fall in one secondary pixel, up to 29 of them.
 //
-// Latency: one clock from the pixel's last beat. The sums are the only registers; the division
-// follows them.
+// Latency: one clock from the pixel's last beat. Sums, count and the reciprocal of the count are
+// the only registers; the division follows them.
 // Reset: rst_i clears valid_q; sums and count start afresh at the first beat of a pixel.
 // Paper: sections 5.6 and 5.6.1.
 `include "sam_formats.vh"
@@ -38,38 +38,61 @@ module sam_filter #(
     reg         valid_q;
     reg [N-1:0] count_q;
 
-    wire         accept = beat_valid_i & beat_ready_o;
-    wire         clear  = accept & beat_first_i;
-    wire         full   = (count_q == `SAM_FILTER_LIMIT) & ~beat_first_i;
-    wire         add    = accept & beat_include_i & ~full;
-    wire [N-1:0] so_many = clear ? {N{1'b0}} : count_q;
+    wire         accept  = beat_valid_i & beat_ready_o;
+    wire         full    = (count_q == `SAM_FILTER_LIMIT) & ~beat_first_i;
+    wire         add     = beat_include_i & ~full;
+    wire [N-1:0] so_many = beat_first_i ? {N{1'b0}} : count_q;
+    wire [N-1:0] count_d = so_many + {{(N - 1){1'b0}}, add};
 
     assign beat_ready_o = ~valid_q | pixel_ready_i;
 
-    // No clock enable here nor at the sums: what is not accepted adds nothing.
     always @(posedge clk_i) begin
         if (rst_i)             valid_q <= 1'b0;
         else if (beat_ready_o) valid_q <= beat_valid_i & beat_end_i;
 
-        count_q <= so_many + {{(N - 1){1'b0}}, add};
+        if (accept) count_q <= count_d;
     end
 
-    // Half of n rides on the sum of the exact division: one more at n = 2, 4, 6...
-    // At n = 1 the sum is one too high too, which lets the reciprocal 2^18 be 2^18 - 1 and fit the
-    // 18 bits of a multiplier; n = 2 then needs no more.
-    wire half = (FILTER_TERMS == 0) & add & ((so_many == 0) | (so_many[0] & (so_many != 1)));
+    // Exact division: half of n rides on the sum, one more at n = 2, 4, 6... The only 19-bit
+    // reciprocal, 2^18 for n = 1, is replaced by 2^18 - 1, so that a multiplier of 18 bits is
+    // enough; the sum must be one higher then, and n = 2 needs no more.
+    wire        half;
+    wire [17:0] factor;
+
+    generate
+        if (FILTER_TERMS == 0) begin : g_reciprocal
+            localparam B = `SAM_RECIPROCAL_BITS;
+            localparam [32*B-1:0] RECIPROCAL = `SAM_RECIPROCAL;
+            // Looked up while the sum is formed, as the multiplication alone fills a clock, and from
+            // the count so far, as the next one comes late.
+            reg  [17:0] factor_q;
+            wire        to_one = beat_first_i | (count_q == 0);
+
+            always @(posedge clk_i) begin
+                if (accept & (beat_first_i | add)) begin
+                    factor_q <= to_one ? 18'h3ffff : RECIPROCAL[(count_q + 1)*B +: 18];
+                end
+            end
+            assign factor = factor_q;
+            assign half   = add & ((so_many == 0) | (so_many[0] & (so_many != 1)));
+        end else begin : g_no_reciprocal
+            assign factor = 18'd0;
+            assign half   = 1'b0;
+        end
+    endgenerate
 
     genvar i;
     generate
         for (i = 0; i < CHANNELS; i = i + 1) begin : g_channel
             reg  [12:0] sum_q;
-            wire [12:0] so_far = clear ? 13'd0 : sum_q;
+            wire [12:0] so_far = beat_first_i ? 13'd0 : sum_q;
             wire [12:0] more   = add ? {5'd0, beat_rgba_i[8*i +: 8]} : 13'd0;
-
             // The lowest bit is there to carry `half` into the adder.
             wire [13:0] total  = {so_far, 1'b1} + {more, half};
 
-            always @(posedge clk_i) sum_q <= total[13:1];
+            always @(posedge clk_i) begin
+                if (accept) sum_q <= total[13:1];
+            end
             wire unused = &{1'b0, total[0]};
 
             sam_filter_division #(
@@ -77,6 +100,7 @@ module sam_filter #(
             ) u_division (
                 .sum_i     (sum_q),
                 .count_i   (count_q),
+                .factor_i  (factor),
                 .quotient_o(pixel_rgba_o[8*i +: 8])
             );
         end

@@ -4,11 +4,12 @@
 `default_nettype none
 
 module sam_filter_division #(
-    // 2 or 3: 1/n as so many powers of two. 0: exact, and the sum has the rounding on it.
+    // 2 or 3: 1/n as so many powers of two. 0: by a reciprocal, with the rounding in the sum.
     parameter FILTER_TERMS = 0
 ) (
     input  wire [12:0]                sum_i,
     input  wire [`SAM_COUNT_BITS-1:0] count_i,
+    input  wire [17:0]                factor_i,
     output wire [7:0]                 quotient_o
 );
     generate
@@ -16,14 +17,9 @@ module sam_filter_division #(
             sam_filter_division_FILTER_TERMS_must_be_0_or_2_or_3 u_error ();
         end
         if (FILTER_TERMS == 0) begin : g_exact
-            localparam B = `SAM_RECIPROCAL_BITS;
-            localparam [32*B-1:0] RECIPROCAL = `SAM_RECIPROCAL;
-
-            // The only 19-bit reciprocal, 2^18 for n = 1, is replaced by 2^18 - 1.
-            wire [B-2:0]  factor  = (count_i == 1) ? {(B - 1){1'b1}} : RECIPROCAL[count_i*B +: B-1];
-            wire [30:0]   product = {18'd0, sum_i} * {13'd0, factor};
+            wire [30:0] product = {18'd0, sum_i} * {13'd0, factor_i};
             assign quotient_o = product[`SAM_RECIPROCAL_SHIFT +: 8];
-            wire unused = &{1'b0, product[30:26], product[17:0]};
+            wire unused = &{1'b0, count_i, product[30:26], product[17:0]};
         end else if (FILTER_TERMS == 2) begin : g_two_terms
             // sum (2^-p + 2^-q) is (sum + sum 2^-d) 2^-p with d = q - p: a short adder between two
             // short shifters. Bits below 2^-d cannot carry, as the other addend has none there.
@@ -39,7 +35,7 @@ module sam_filter_division #(
             wire [8:0]  rounded = scaled[9:1] + {8'd0, scaled[0]};
 
             assign quotient_o = rounded[7:0] | {8{rounded[8]}};
-            wire unused = &{1'b0, scaled[14:10], p[3], d[3]};
+            wire unused = &{1'b0, scaled[14:10], p[3], d[3], factor_i};
         end else begin : g_three_terms
             localparam SHIFT = `SAM_THREE_TERM_SHIFT;
             localparam [127:0] P = `SAM_THREE_TERM_P;
@@ -54,7 +50,7 @@ module sam_filter_division #(
                                 + (scaled >> R[{count_i, 2'b00} +: 4])
                                 + {13'd0, 1'b1, {(SHIFT - 1){1'b0}}};
             assign quotient_o = total[SHIFT +: 8] | {8{total[SHIFT + 8]}};
-            wire unused = &{1'b0, total[T-1:SHIFT+9], total[SHIFT-1:0]};
+            wire unused = &{1'b0, total[T-1:SHIFT+9], total[SHIFT-1:0], factor_i};
         end
     endgenerate
 endmodule

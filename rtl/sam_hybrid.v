@@ -191,13 +191,15 @@ module sam_hybrid #(
         end
     end
 
-    // Into S2: a LOAD beat takes its edges along. All units of S2 move together, as the stage does:
-    // the sampler and the filter have room between the ends of pixels even when the stage has not.
-    wire s1_load  = s1_op == `SAM_OP_LOAD;
-    wire s1_first = (s1_op != `SAM_OP_STEP) | s1_move | (s1_row_move != {`SAM_MOVE_BITS{1'b0}});
-    wire s1_end   = s1_x_end | s1_y_end;
+    // Into S2: a LOAD beat is offered with its edges. All units of S2 move together. The sampler and
+    // the filter have room between the ends of pixels even when the stage has not: they get a beat
+    // when it moves.
+    wire s1_load    = s1_op == `SAM_OP_LOAD;
+    wire s1_first   = (s1_op != `SAM_OP_STEP) | s1_move | (s1_row_move != {`SAM_MOVE_BITS{1'b0}});
+    wire s1_end     = s1_x_end | s1_y_end;
     wire s2_valid, s2_ready, s3_ready;
-    wire step     = s1_valid & s1_taken;
+    wire s1_offered = s1_valid & (~s1_load | edges_valid_i);
+    wire s1_moves   = s1_offered & s2_ready;
 
     assign s1_taken      = s2_ready & (~s1_load | edges_valid_i);
     assign edges_ready_o = s2_ready & s1_valid & s1_load;
@@ -212,10 +214,10 @@ module sam_hybrid #(
     assign error_o = error_q;
 
     always @(posedge clk_i) begin
-        if (step & s1_load) flat_q <= flat;
+        if (s1_moves & s1_load) flat_q <= flat;
 
         if (rst_i) error_q <= 1'b0;
-        else       error_q <= (error_q & ~error_clear_i) | (step & s1_void);
+        else       error_q <= (error_q & ~error_clear_i) | (s1_moves & s1_void);
     end
 
     // S2: the interpolants at the secondary pixel, and what is gathered of its primary pixels.
@@ -227,7 +229,7 @@ module sam_hybrid #(
 
     sam_stage #(.WIDTH(7 + MB + 2 * C + RB + D)) u_primary (
         .clk_i(clk_i), .rst_i(rst_i),
-        .in_valid_i(step), .in_ready_o(s2_ready),
+        .in_valid_i(s1_offered), .in_ready_o(s2_ready),
         .in_data_i({~s1_void, ~s1_void & s1_binocular & s1_end & s1_x_inside & s1_y_inside,
                     s1_eye, s1_lend, s1_average, s1_planes, s1_centre_q,
                     s1_mask_q, s1_place_q, s1_rgba_q, s1_depth_q}),
@@ -243,7 +245,7 @@ module sam_hybrid #(
 
     sam_edge_interpolator #(.BITS(EB), .SLOPE_BITS(SB), .TILT(TILT)) u_edge0 (
         .clk_i(clk_i), .rst_i(rst_i),
-        .beat_valid_i(step), .beat_ready_o(edge_ready[0]), .beat_op_i(s1_op), .beat_save_i(s1_save),
+        .beat_valid_i(s1_offered), .beat_ready_o(edge_ready[0]), .beat_op_i(s1_op), .beat_save_i(s1_save),
         .beat_move_i(s1_move), .beat_y_move_i(s1_row_move),
         .beat_start_i(edges_e0_start_i), .beat_a_i(edges_e0_a_i), .beat_b_i(edges_e0_b_i),
         .beat_row_i(edges_e0_row_i), .beat_low_i(edges_e0_low_i),
@@ -253,7 +255,7 @@ module sam_hybrid #(
 
     sam_edge_interpolator #(.BITS(EB), .SLOPE_BITS(SB), .TILT(TILT)) u_edge1 (
         .clk_i(clk_i), .rst_i(rst_i),
-        .beat_valid_i(step), .beat_ready_o(edge_ready[1]), .beat_op_i(s1_op), .beat_save_i(s1_save),
+        .beat_valid_i(s1_offered), .beat_ready_o(edge_ready[1]), .beat_op_i(s1_op), .beat_save_i(s1_save),
         .beat_move_i(s1_move), .beat_y_move_i(s1_row_move),
         .beat_start_i(edges_e1_start_i), .beat_a_i(edges_e1_a_i), .beat_b_i(edges_e1_b_i),
         .beat_row_i(edges_e1_row_i), .beat_low_i(edges_e1_low_i),
@@ -263,7 +265,7 @@ module sam_hybrid #(
 
     sam_edge_interpolator #(.BITS(EB), .SLOPE_BITS(SB), .TILT(TILT)) u_edge2 (
         .clk_i(clk_i), .rst_i(rst_i),
-        .beat_valid_i(step), .beat_ready_o(edge_ready[2]), .beat_op_i(s1_op), .beat_save_i(s1_save),
+        .beat_valid_i(s1_offered), .beat_ready_o(edge_ready[2]), .beat_op_i(s1_op), .beat_save_i(s1_save),
         .beat_move_i(s1_move), .beat_y_move_i(s1_row_move),
         .beat_start_i(edges_e2_start_i), .beat_a_i(edges_e2_a_i), .beat_b_i(edges_e2_b_i),
         .beat_row_i(edges_e2_row_i), .beat_low_i(edges_e2_low_i),
@@ -281,14 +283,14 @@ module sam_hybrid #(
 
     sam_display #(.SUBPIXEL_BITS(SUBPIXEL_BITS)) u_display (
         .clk_i(clk_i), .rst_i(rst_i), .width_i(width_i),
-        .point_valid_i(step), .point_ready_o(display_ready), .point_x_i(s1_column),
+        .point_valid_i(s1_offered), .point_ready_o(display_ready), .point_x_i(s1_column),
         .point_y_i(s1_row), .point_swap_i(s1_swap), .point_mirror_i(s1_mirror),
         .pixel_valid_o(display_valid), .pixel_ready_i(s3_ready), .pixel_x_o(column), .pixel_y_o(row)
     );
 
     sam_filter #(.FILTER_TERMS(FILTER_TERMS)) u_filter (
         .clk_i(clk_i), .rst_i(rst_i),
-        .beat_valid_i(step), .beat_ready_o(filter_ready), .beat_first_i(s1_first),
+        .beat_valid_i(s1_moves), .beat_ready_o(filter_ready), .beat_first_i(s1_first),
         .beat_end_i(s1_end), .beat_include_i(s1_centre_q), .beat_rgba_i(s1_rgba_q),
         .pixel_valid_o(filter_valid), .pixel_ready_i(s3_ready),
         .pixel_rgba_o(average), .pixel_count_o(count)
@@ -296,7 +298,7 @@ module sam_hybrid #(
 
     sam_sampler #(.WIDTH(SAMPLE)) u_sampler (
         .clk_i(clk_i), .rst_i(rst_i),
-        .beat_valid_i(step), .beat_ready_o(sampler_ready), .beat_first_i(s1_first),
+        .beat_valid_i(s1_moves), .beat_ready_o(sampler_ready), .beat_first_i(s1_first),
         .beat_end_i(s1_end), .beat_near_i(s1_near), .beat_take_i(1'b1),
         .beat_data_i(s1_data[SAMPLE-1:0]),
         .sample_valid_o(sampler_valid), .sample_ready_i(s3_ready),
@@ -314,7 +316,7 @@ module sam_hybrid #(
     sam_hybrid_planes #(
         .INTEGRATED(INTEGRATED), .DEPTH_INTERPOLATED(DEPTH_INTERPOLATED), .TILT(TILT)
     ) u_planes (
-        .clk_i(clk_i), .rst_i(rst_i), .beat_valid_i(step), .value_ready_i(s3_ready),
+        .clk_i(clk_i), .rst_i(rst_i), .beat_valid_i(s1_offered), .value_ready_i(s3_ready),
         .beat_op_i(s1_op), .beat_save_i(s1_save), .beat_move_i(s1_move), .beat_y_move_i(s1_row_move),
         .z_start_i(edges_z_start_i), .z_a_i(edges_z_a_i), .z_b_i(edges_z_b_i), .z_row_i(edges_z_row_i),
         .red_start_i(edges_red_start_i), .red_a_i(edges_red_a_i),

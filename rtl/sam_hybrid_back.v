@@ -3,7 +3,7 @@
 //
 //   coverage, choice of colour and depth -> slot -> slot queue, blend -> redirect
 //
-// Latency: two clocks to `request`, two from `response` to `left` and `right`.
+// Latency: two clocks to `request`, three from `response` to `left` and `right`.
 // Reset: rst_i empties stages and queue; no data is reset.
 // Paper: section 5, figure 4.
 `include "sam_formats.vh"
@@ -115,9 +115,10 @@ module sam_hybrid_back #(
     wire filtered      = s2_average_i & (count_i != {`SAM_COUNT_BITS{1'b0}});
     wire integrated    = s2_planes_i & (INTEGRATED != 0);
 
-    wire [RB-1:0] gathered = filtered ? average_i : sample_i[RB-1:0];
-    wire [RB-1:0] rgba     = {
-        gathered[RB-1:`SAM_RGB_BITS], integrated ? plane_rgb_i : gathered[`SAM_RGB_BITS-1:0]
+    // A colour that is not the filter's. The choice between the two comes behind the register, as
+    // the filter's exact division fills the clock before it.
+    wire [RB-1:0] plain = {
+        sample_i[RB-1:`SAM_RGB_BITS], integrated ? plane_rgb_i : sample_i[`SAM_RGB_BITS-1:0]
     };
     wire [D-1:0]  depth;
 
@@ -134,28 +135,40 @@ module sam_hybrid_back #(
     wire           slot_valid, slot_ready;
     wire           slot_primary, slot_secondary, slot_eye, slot_primary_write, slot_secondary_write;
     wire [2*C-1:0] slot_primary_place, slot_secondary_place;
-    wire [RB-1:0]  slot_primary_rgba, slot_secondary_rgba;
+    wire           slot_average_alpha, slot_average_rgb;
+    wire [RB-1:0]  slot_primary_rgba, slot_average, slot_plain;
     wire [AB-1:0]  slot_primary_area, slot_secondary_area;
     wire [D-1:0]   slot_primary_depth, slot_secondary_depth;
 
     // Beats without a pixel end here. They are taken when any beat would be, so that the coverage
     // is not in the path of s3_ready.
-    sam_stage #(.WIDTH(5 + 4 * C + 2 * (RB + AB + D))) u_slot (
+    sam_stage #(.WIDTH(7 + 4 * C + 3 * RB + 2 * (AB + D))) u_slot (
         .clk_i(clk_i), .rst_i(rst_i),
         .in_valid_i(s2_valid_i & (primary | secondary)), .in_ready_o(s3_ready_o),
         .in_data_i({primary, secondary, s2_eye_i, primary_write, centre,
+                    filtered, filtered & ~integrated,
                     s2_place_i, s2_rgba_i, primary_area, s2_depth_i,
-                    column_i, row_i, rgba, area, depth}),
+                    column_i, row_i, average_i, plain, area, depth}),
         .out_valid_o(slot_valid), .out_ready_i(slot_ready),
         .out_data_o({slot_primary, slot_secondary, slot_eye, slot_primary_write, slot_secondary_write,
+                     slot_average_alpha, slot_average_rgb,
                      slot_primary_place, slot_primary_rgba, slot_primary_area, slot_primary_depth,
-                     slot_secondary_place, slot_secondary_rgba, slot_secondary_area,
+                     slot_secondary_place, slot_average, slot_plain, slot_secondary_area,
                      slot_secondary_depth})
     );
 
+    wire [RB-1:0] slot_secondary_rgba = {
+        slot_average_alpha ? slot_average[RB-1:`SAM_RGB_BITS] : slot_plain[RB-1:`SAM_RGB_BITS],
+        slot_average_rgb ? slot_average[`SAM_RGB_BITS-1:0] : slot_plain[`SAM_RGB_BITS-1:0]
+    };
+
+    wire           answer_valid, answer_ready, answer_visible;
+    wire [RB-1:0]  answer_rgba;
+    wire [AB-1:0]  answer_area;
     wire           pixel_valid, pixel_ready, pixel_visible, colour_valid, colour_ready, colour_visible;
     wire [RB-1:0]  pixel_rgba;
     wire [AB-1:0]  pixel_area;
+    wire [`SAM_RGB_BITS-1:0] pixel_background;
     wire [`SAM_RGB_BITS-1:0] colour_rgb;
     wire           out_valid, out_ready, out_primary, out_secondary, out_eye;
     wire           out_primary_write, out_secondary_write;
@@ -183,8 +196,8 @@ module sam_hybrid_back #(
         .request_eye_o(request_eye_o), .request_x_o(request_x_o), .request_y_o(request_y_o),
         .response_valid_i(response_valid_i), .response_ready_o(response_ready_o),
         .response_depth_i(response_depth_i),
-        .pixel_valid_o(pixel_valid), .pixel_ready_i(pixel_ready), .pixel_rgba_o(pixel_rgba),
-        .pixel_area_o(pixel_area), .pixel_visible_o(pixel_visible),
+        .pixel_valid_o(answer_valid), .pixel_ready_i(answer_ready), .pixel_rgba_o(answer_rgba),
+        .pixel_area_o(answer_area), .pixel_visible_o(answer_visible),
         .colour_valid_i(colour_valid), .colour_ready_o(colour_ready), .colour_rgb_i(colour_rgb),
         .colour_visible_i(colour_visible),
         .out_valid_o(out_valid), .out_ready_i(out_ready), .out_primary_o(out_primary),
@@ -197,11 +210,20 @@ module sam_hybrid_back #(
         .out_secondary_depth_o(out_secondary_depth), .out_secondary_write_o(out_secondary_write)
     );
 
+    // Between memory and blend, whose multipliers have fixed places on a chip and are far from both.
+    sam_stage #(.WIDTH(1 + RB + AB + `SAM_RGB_BITS)) u_answer (
+        .clk_i(clk_i), .rst_i(rst_i),
+        .in_valid_i(answer_valid), .in_ready_o(answer_ready),
+        .in_data_i({answer_visible, answer_rgba, answer_area, response_rgb_i}),
+        .out_valid_o(pixel_valid), .out_ready_i(pixel_ready),
+        .out_data_o({pixel_visible, pixel_rgba, pixel_area, pixel_background})
+    );
+
     sam_blend #(.ANTIALIAS(ANTIALIAS), .TAG_BITS(1)) u_blend (
         .clk_i(clk_i), .rst_i(rst_i),
         .pixel_valid_i(pixel_valid), .pixel_ready_o(pixel_ready),
         .pixel_rgb_i(pixel_rgba[`SAM_RGB_BITS-1:0]), .pixel_alpha_i(pixel_rgba[RB-1:`SAM_RGB_BITS]),
-        .pixel_area_i(pixel_area), .pixel_background_i(response_rgb_i), .pixel_tag_i(pixel_visible),
+        .pixel_area_i(pixel_area), .pixel_background_i(pixel_background), .pixel_tag_i(pixel_visible),
         .colour_valid_o(colour_valid), .colour_ready_i(colour_ready),
         .colour_rgb_o(colour_rgb), .colour_tag_o(colour_visible)
     );

@@ -96,12 +96,12 @@ module sam_redirect #(
     assign slot_ready_o = ~slot_valid_i | (primary_done & secondary_done);
 
     always @(posedge clk_i) begin
-        if (rst_i | (slot_valid_i & slot_ready_o)) begin
+        if (rst_i) begin
             primary_gone_q   <= 1'b0;
             secondary_gone_q <= 1'b0;
-        end else if (slot_valid_i) begin
-            primary_gone_q   <= primary_done;
-            secondary_gone_q <= secondary_done;
+        end else begin
+            primary_gone_q   <= slot_valid_i & primary_done & ~secondary_done;
+            secondary_gone_q <= slot_valid_i & secondary_done & ~primary_done;
         end
     end
 

@@ -6,7 +6,7 @@
 // A read waits while a slot in the queue holds a pixel of the same eye at the same place, so that
 // memory which reads in order never answers with what has since been overwritten.
 //
-// Latency: one clock from slot to request; from response on that of sam_blend.
+// Latency: one clock from slot to request; none from response to pixel and from colour to out.
 // Reset: rst_i empties the queue; what the memory holds stays.
 // Paper: section 5.7 (background), 6 (synchronisation of the pipelines).
 `include "sam_formats.vh"
@@ -112,39 +112,49 @@ module sam_slot_queue #(
     wire [N-1:0] answer_index = answer_q[N-1:0];
     wire [N-1:0] leave_index  = leave_q[N-1:0];
 
-    wire full    = enter_q == {~leave_q[N], leave_index};
     wire empty   = enter_q == leave_q;
     wire settled = enter_q == answer_q;
 
     wire push, pop;
 
-    // Three memories, by who reads: blend, both, the output. Without write enables per pixel, as a
-    // pixel that a slot has not got is not looked at.
+    // A slot enters while there is a place for it and for the read of a secondary. Kept in a register
+    // of its own, as all stages before wait for it.
+    reg        room_q;
+    reg        full_q;
+    wire [N:0] enter_next = enter_q + {{N{1'b0}}, 1'b1};
+    wire       last_place = enter_next == {~leave_q[N], leave_index};
+    wire       full_d     = (full_q | (push & last_place)) & ~pop;
+    wire       next_d;
+
+    // Memories by who reads: blend, both, the output. The free place is written whether a
+    // slot enters or not, which keeps the path to the write enables short.
     reg [`SAM_RGB_BITS-1:0]              source_q [0:SLOTS-1];
-    reg [A+D+8:0]                        tested_q [0:SLOTS-1];
-    reg [4*C+`SAM_RGBA_BITS+A+D+3:0]     placed_q [0:SLOTS-1];
+    reg [A+D+7:0]                        tested_q [0:SLOTS-1];
+    reg [4*C+`SAM_RGBA_BITS+A+D+1:0]     placed_q [0:SLOTS-1];
+    reg [2:0]                            flags_q [0:SLOTS-1];
 
     always @(posedge clk_i) begin
-        if (push) begin
+        if (room_q) begin
             source_q[enter_index] <= slot_secondary_rgba_i[`SAM_RGB_BITS-1:0];
             tested_q[enter_index] <= {
-                slot_secondary_i, slot_secondary_rgba_i[`SAM_RGBA_BITS-1:`SAM_RGB_BITS],
+                slot_secondary_rgba_i[`SAM_RGBA_BITS-1:`SAM_RGB_BITS],
                 slot_secondary_area_i, slot_secondary_depth_i
             };
             placed_q[enter_index] <= {
-                slot_primary_i, slot_eye_i, slot_primary_write_i, slot_secondary_write_i,
+                slot_primary_write_i, slot_secondary_write_i,
                 slot_primary_x_i, slot_primary_y_i, slot_primary_rgba_i, slot_primary_area_i,
                 slot_primary_depth_i, slot_secondary_x_i, slot_secondary_y_i
             };
+            flags_q[enter_index] <= {slot_primary_i, slot_secondary_i, slot_eye_i};
         end
     end
 
     // Response: passes over slots without a secondary, one a clock.
-    wire         answer_secondary;
+    wire         answer_secondary = flags_q[answer_index][1];
     wire [7:0]   answer_alpha;
     wire [D-1:0] answer_depth;
 
-    assign {answer_secondary, answer_alpha, pixel_area_o, answer_depth} = tested_q[answer_index];
+    assign {answer_alpha, pixel_area_o, answer_depth} = tested_q[answer_index];
 
     wire answered = response_valid_i & pixel_ready_i;
 
@@ -153,14 +163,22 @@ module sam_slot_queue #(
     assign pixel_rgba_o     = {answer_alpha, source_q[answer_index]};
     assign pixel_visible_o  = (DEPTH_EXTERNAL != 0) | (answer_depth < response_depth_i);
 
-    // Output: a slot with a secondary waits for its colour.
-    wire       leave_secondary;
-    wire [7:0] leave_alpha;
+    // Output: a slot with a secondary waits for its colour. What decides whether it leaves is read a
+    // clock before it is first in the queue, or taken from a slot that enters just then.
+    reg  [2:0]   head_q;
+    wire [2:0]   enter_flags = {slot_primary_i, slot_secondary_i, slot_eye_i};
+    wire [N:0]   leave_next  = leave_q + {{N{1'b0}}, 1'b1};
+    wire [2:0]   head        = empty ? enter_flags : flags_q[leave_index];
+    wire [2:0]   second      = enter_q == leave_next ? enter_flags : flags_q[leave_next[N-1:0]];
+    wire         leave_secondary;
+    wire [7:0]   leave_alpha;
 
-    assign {leave_secondary, leave_alpha, out_secondary_area_o, out_secondary_depth_o} =
-        tested_q[leave_index];
+    always @(posedge clk_i) head_q <= pop ? second : head;
+
+    assign {out_primary_o, leave_secondary, out_eye_o} = head_q;
+    assign {leave_alpha, out_secondary_area_o, out_secondary_depth_o} = tested_q[leave_index];
     assign {
-        out_primary_o, out_eye_o, out_primary_write_o, out_secondary_write_o,
+        out_primary_write_o, out_secondary_write_o,
         out_primary_x_o, out_primary_y_o, out_primary_rgba_o, out_primary_area_o,
         out_primary_depth_o, out_secondary_x_o, out_secondary_y_o
     } = placed_q[leave_index];
@@ -170,44 +188,62 @@ module sam_slot_queue #(
     assign colour_ready_o       = ~empty & leave_secondary & out_ready_i;
     assign pop                  = out_valid_o & out_ready_i;
 
-    // Read: which slots hold its place is found when it enters; it then waits for them to leave.
+    // Read: which slots hold its place is found when it enters; it then waits for them to leave. A
+    // second read waits behind the first, so that slots enter without waiting for request_ready_i.
     reg              read_q;
-    reg              read_eye_q;
-    reg [C-1:0]      read_x_q;
-    reg [C-1:0]      read_y_q;
+    reg [2*C:0]      read_place_q;
     reg [SLOTS-1:0]  blocked_q;
+    reg              next_q;
+    reg [2*C:0]      next_place_q;
+    reg [SLOTS-1:0]  next_blocked_q;
     wire [SLOTS-1:0] same_place;
-    wire [SLOTS-1:0] leaving;
+    wire [SLOTS-1:0] left;
+    reg              pop_q;
+    reg [N-1:0]      left_index_q;
 
-    wire request_taken = request_valid_o & request_ready_i;
+    wire             enter_read    = push & slot_secondary_i;
+    wire [2*C:0]     enter_place   = {~slot_eye_i, slot_secondary_x_i, slot_secondary_y_i};
+    wire             keep          = read_q & ~(request_valid_o & request_ready_i);
 
     assign push            = slot_valid_i & slot_ready_o;
-    assign slot_ready_o    = ~full & (~slot_secondary_i | ~read_q | request_taken);
+    assign slot_ready_o    = room_q;
+    assign next_d          = keep & (next_q | enter_read);
     assign request_valid_o = read_q & (blocked_q == {SLOTS{1'b0}});
-    assign request_eye_o   = read_eye_q;
-    assign request_x_o     = read_x_q;
-    assign request_y_o     = read_y_q;
+    assign {request_eye_o, request_x_o, request_y_o} = read_place_q;
 
     always @(posedge clk_i) begin
         if (rst_i) begin
             enter_q  <= {(N + 1){1'b0}};
             answer_q <= {(N + 1){1'b0}};
             leave_q  <= {(N + 1){1'b0}};
+            room_q   <= 1'b1;
+            full_q   <= 1'b0;
             read_q   <= 1'b0;
+            next_q   <= 1'b0;
+            pop_q    <= 1'b0;
         end else begin
-            if (push) enter_q <= enter_q + {{N{1'b0}}, 1'b1};
+            room_q <= ~full_d & ~next_d;
+            full_q <= full_d;
+            if (push) enter_q <= enter_next;
             if (~settled & (~answer_secondary | answered)) answer_q <= answer_q + {{N{1'b0}}, 1'b1};
-            if (pop) leave_q <= leave_q + {{N{1'b0}}, 1'b1};
-            read_q <= (push & slot_secondary_i) | (read_q & ~request_taken);
+            pop_q  <= pop;
+            if (pop) leave_q <= leave_next;
+            read_q <= keep | next_q | enter_read;
+            next_q <= next_d;
         end
 
-        if (push & slot_secondary_i) begin
-            read_eye_q <= ~slot_eye_i;
-            read_x_q   <= slot_secondary_x_i;
-            read_y_q   <= slot_secondary_y_i;
-            blocked_q  <= same_place & ~leaving;
+        left_index_q <= leave_index;
+        if (~keep) begin
+            read_place_q <= next_q ? next_place_q : enter_place;
+            blocked_q    <= next_q ? next_blocked_q & ~left : same_place & ~left;
         end else begin
-            blocked_q  <= blocked_q & ~leaving;
+            blocked_q    <= blocked_q & ~left;
+        end
+        if (~next_q) begin
+            next_place_q   <= enter_place;
+            next_blocked_q <= same_place & ~left;
+        end else begin
+            next_blocked_q <= next_blocked_q & ~left;
         end
     end
 
@@ -227,14 +263,15 @@ module sam_slot_queue #(
             wire           held  = other ? primary_q : secondary_q;
             wire [2*C-1:0] place = other ? primary_place_q : secondary_place_q;
 
-            assign leaving[i]    = pop & (leave_index == i);
+            // That a slot left is noted a clock late, which keeps the path from the output short.
+            assign left[i]       = pop_q & (left_index_q == i);
             assign same_place[i] = occupied_q & held & (place == {slot_secondary_x_i, slot_secondary_y_i});
 
             always @(posedge clk_i) begin
                 if (rst_i) occupied_q <= 1'b0;
-                else       occupied_q <= (push & (enter_index == i)) | (occupied_q & ~leaving[i]);
+                else       occupied_q <= (push & (enter_index == i)) | (occupied_q & ~left[i]);
 
-                if (push & (enter_index == i)) begin
+                if (room_q & (enter_index == i)) begin
                     primary_q         <= slot_primary_i;
                     secondary_q       <= slot_secondary_i;
                     eye_q             <= slot_eye_i;

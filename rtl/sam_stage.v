@@ -36,7 +36,8 @@ module sam_stage #(
         if (rst_i)           valid_q <= 1'b0;
         else if (in_ready_o) valid_q <= in_valid_i;
 
-        if (in_valid_i & in_ready_o) data_q <= in_data_i;
+        // Without a look at the valid, which may come late.
+        if (in_ready_o) data_q <= in_data_i;
     end
 endmodule
 
