@@ -195,7 +195,7 @@ fn give_slot(case: &mut Case, slot: &Slot, single: bool) {
 pub fn redirect_case(config: &Config, seed: u64, beats: usize) -> Case {
     let f = &Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
-    let single = seed % 3 == 0;
+    let single = seed.is_multiple_of(3);
     let name = if single { "random, one display" } else { "random" };
     let mut case = Case::empty(Target::Redirect, config, name);
     case.statics = vec![single.into()];

@@ -289,7 +289,7 @@ struct Spoiler<'a, S> {
 impl<S> Spoiler<'_, S> {
     /// How the present polygon is treated.
     fn way(&self) -> usize {
-        if self.polygon % 2 == 0 {
+        if self.polygon.is_multiple_of(2) {
             self.polygon / 2 % 12
         } else {
             12
