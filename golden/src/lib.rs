@@ -9,11 +9,15 @@
 
 extern crate alloc;
 
+#[cfg(feature = "std")]
+pub mod clipping;
 pub mod config;
 #[cfg(feature = "std")]
 pub mod direct;
 #[cfg(feature = "std")]
 pub mod document;
+#[cfg(feature = "std")]
+pub mod faces;
 pub mod formats;
 #[cfg(feature = "std")]
 pub mod frame;
@@ -26,6 +30,8 @@ pub mod pipeline;
 #[cfg(feature = "std")]
 pub mod primary;
 #[cfg(feature = "std")]
+pub mod projection;
+#[cfg(feature = "std")]
 pub mod random;
 #[cfg(feature = "std")]
 pub mod record;
@@ -33,8 +39,14 @@ pub mod record;
 pub mod scene;
 pub mod setup;
 #[cfg(feature = "std")]
+pub mod simultaneous;
+#[cfg(feature = "std")]
 pub mod stereo;
 #[cfg(feature = "std")]
 pub mod targets;
 #[cfg(feature = "std")]
 pub mod texture;
+#[cfg(feature = "std")]
+pub mod visibility;
+#[cfg(feature = "std")]
+pub mod work;

@@ -1,0 +1,1 @@
+//! Projections: where the two eyes see a point on the screen.

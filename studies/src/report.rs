@@ -1,0 +1,208 @@
+//! Tables of three columns: what is printed, what is correct, what comes out here.
+
+use comfy_table::{presets, ContentArrangement};
+use serde::Serialize;
+use std::fmt;
+use std::path::PathBuf;
+
+/// What an experiment found.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Report {
+    /// Name of the experiment.
+    pub experiment: String,
+    /// Publication it belongs to.
+    pub publication: String,
+    /// Its tables.
+    pub tables: Vec<Table>,
+    /// Pictures and plots that were written.
+    pub files: Vec<PathBuf>,
+}
+
+/// One table, or the figures that belong together.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Table {
+    /// What it shows, with the place in the publication.
+    pub title: String,
+    /// Its rows.
+    pub rows: Vec<Row>,
+}
+
+/// One figure.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// What is measured.
+    pub what: String,
+    /// Unit of all three numbers; empty for counts and ratios.
+    pub unit: String,
+    /// As the publication prints it.
+    pub printed: Option<f64>,
+    /// As it should have printed it; the printed one if there is no erratum.
+    pub corrected: Option<f64>,
+    /// As it comes out here.
+    pub here: f64,
+    /// Digits after the point to show.
+    pub digits: usize,
+    /// What `here` is held against.
+    pub check: Check,
+    /// Why `corrected` differs from `printed`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub erratum: Option<&'static str>,
+}
+
+/// What a figure must hold.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Check {
+    /// The reference to all its digits shown.
+    Digits,
+    /// The reference within this part of it.
+    Within(f64),
+    /// At least this.
+    AtLeast(f64),
+    /// At most this.
+    AtMost(f64),
+    /// Nothing: it depends on the machine, and is shown as a trend.
+    Trend,
+}
+
+/// Whether a figure holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// It does.
+    Holds,
+    /// It does not.
+    Differs,
+    /// It is not judged.
+    Trend,
+}
+
+impl Row {
+    /// A figure without a printed counterpart.
+    pub fn new(what: impl Into<String>, here: f64, digits: usize, check: Check) -> Row {
+        Row {
+            what: what.into(),
+            unit: String::new(),
+            printed: None,
+            corrected: None,
+            here,
+            digits,
+            check,
+            erratum: None,
+        }
+    }
+
+    /// A printed figure without an erratum.
+    pub fn printed(mut self, printed: f64) -> Row {
+        (self.printed, self.corrected) = (Some(printed), Some(printed));
+        self
+    }
+
+    /// A printed figure that should be another.
+    pub fn corrected(mut self, corrected: f64, erratum: &'static str) -> Row {
+        (self.corrected, self.erratum) = (Some(corrected), Some(erratum));
+        self
+    }
+
+    /// Names the unit.
+    pub fn unit(mut self, unit: &str) -> Row {
+        self.unit = unit.into();
+        self
+    }
+
+    /// Whether the figure holds.
+    pub fn verdict(&self) -> Verdict {
+        let holds = |holds| if holds { Verdict::Holds } else { Verdict::Differs };
+        let reference = self.corrected.or(self.printed).unwrap_or(f64::NAN);
+        match self.check {
+            Check::Digits => holds(self.text(Some(self.here)) == self.text(Some(reference))),
+            Check::Within(part) => holds((self.here - reference).abs() <= part * reference.abs()),
+            Check::AtLeast(least) => holds(self.here >= least),
+            Check::AtMost(most) => holds(self.here <= most),
+            Check::Trend => Verdict::Trend,
+        }
+    }
+
+    fn text(&self, value: Option<f64>) -> String {
+        value.map(|value| format!("{value:.*}", self.digits)).unwrap_or_default()
+    }
+
+    fn held_to(&self) -> String {
+        match self.check {
+            Check::Digits => "its digits".into(),
+            Check::Within(part) => format!("within {} %", 100.0 * part),
+            Check::AtLeast(least) => format!("at least {least}"),
+            Check::AtMost(most) => format!("at most {most}"),
+            Check::Trend => String::new(),
+        }
+    }
+}
+
+impl Report {
+    /// Figures that do not hold.
+    pub fn differing(&self) -> impl Iterator<Item = &Row> {
+        let rows = self.tables.iter().flat_map(|table| &table.rows);
+        rows.filter(|row| row.verdict() == Verdict::Differs)
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut table = comfy_table::Table::new();
+        table.load_preset(presets::UTF8_BORDERS_ONLY);
+        table.set_content_arrangement(ContentArrangement::Disabled);
+        table.set_header(["", "printed", "corrected", "here", "", "held to", ""]);
+        let mut errata: Vec<&str> = Vec::new();
+        for row in &self.rows {
+            let mark = row.erratum.map_or(String::new(), |erratum| {
+                let found = errata.iter().position(|&known| known == erratum);
+                let index = found.unwrap_or_else(|| {
+                    errata.push(erratum);
+                    errata.len() - 1
+                });
+                format!("[{}]", index + 1)
+            });
+            let verdict = match row.verdict() {
+                Verdict::Holds => "holds",
+                Verdict::Differs => "DIFFERS",
+                Verdict::Trend => "trend",
+            };
+            table.add_row([
+                row.what.clone(),
+                row.text(row.printed),
+                format!("{}{mark}", row.text(row.corrected)),
+                row.text(Some(row.here)),
+                row.unit.clone(),
+                row.held_to(),
+                verdict.into(),
+            ]);
+        }
+        writeln!(f, "{}", self.title)?;
+        writeln!(f, "{table}")?;
+        for (index, erratum) in errata.iter().enumerate() {
+            writeln!(f, "  [{}] {erratum}", index + 1)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_judged_by_what_they_are_held_to() {
+        let row = |here, check| Row::new("x", here, 1, check).printed(2.5).verdict();
+        assert_eq!(row(2.54, Check::Digits), Verdict::Holds);
+        assert_eq!(row(2.56, Check::Digits), Verdict::Differs);
+        assert_eq!(row(2.6, Check::Within(0.05)), Verdict::Holds);
+        assert_eq!(row(2.7, Check::Within(0.05)), Verdict::Differs);
+        assert_eq!(row(2.7, Check::AtLeast(2.7)), Verdict::Holds);
+        assert_eq!(row(2.7, Check::AtMost(2.6)), Verdict::Differs);
+        assert_eq!(row(9.0, Check::Trend), Verdict::Trend);
+        let wrong = Row::new("x", 1.5, 2, Check::Digits).printed(1.67).corrected(1.5, "1 + II");
+        assert_eq!(wrong.verdict(), Verdict::Holds);
+        let table = Table { title: "t".into(), rows: vec![wrong] }.to_string();
+        assert!(table.contains("1.67") && table.contains("[1] 1 + II"), "{table}");
+    }
+}
