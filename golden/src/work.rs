@@ -92,10 +92,11 @@ thread_local! {
     }) };
 }
 
-fn note(change: impl FnOnce(&mut Operations)) {
+/// Counts one operation of a kind.
+fn one(kind: impl FnOnce(&mut Operations) -> &mut u64) {
     DONE.with(|done| {
         let mut operations = done.get();
-        change(&mut operations);
+        *kind(&mut operations) += 1;
         done.set(operations);
     });
 }
@@ -123,7 +124,7 @@ impl Real for Counted {
 impl Add for Counted {
     type Output = Counted;
     fn add(self, other: Counted) -> Counted {
-        note(|done| done.additions += 1);
+        one(|done| &mut done.additions);
         Counted(self.0 + other.0)
     }
 }
@@ -137,7 +138,7 @@ impl AddAssign for Counted {
 impl Sub for Counted {
     type Output = Counted;
     fn sub(self, other: Counted) -> Counted {
-        note(|done| done.additions += 1);
+        one(|done| &mut done.additions);
         Counted(self.0 - other.0)
     }
 }
@@ -145,7 +146,7 @@ impl Sub for Counted {
 impl Mul for Counted {
     type Output = Counted;
     fn mul(self, other: Counted) -> Counted {
-        note(|done| done.multiplications += 1);
+        one(|done| &mut done.multiplications);
         Counted(self.0 * other.0)
     }
 }
@@ -153,7 +154,7 @@ impl Mul for Counted {
 impl Div for Counted {
     type Output = Counted;
     fn div(self, other: Counted) -> Counted {
-        note(|done| done.divisions += 1);
+        one(|done| &mut done.divisions);
         Counted(self.0 / other.0)
     }
 }
@@ -167,14 +168,14 @@ impl Neg for Counted {
 
 impl PartialEq for Counted {
     fn eq(&self, other: &Counted) -> bool {
-        note(|done| done.comparisons += 1);
+        one(|done| &mut done.comparisons);
         self.0 == other.0
     }
 }
 
 impl PartialOrd for Counted {
     fn partial_cmp(&self, other: &Counted) -> Option<std::cmp::Ordering> {
-        note(|done| done.comparisons += 1);
+        one(|done| &mut done.comparisons);
         self.0.partial_cmp(&other.0)
     }
 }
