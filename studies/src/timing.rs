@@ -27,7 +27,8 @@ pub fn ratio<A, B>(
         start.elapsed().max(Duration::from_nanos(1))
     }
     // Once for caches and branch predictors.
-    (time(&mut first), time(&mut second));
+    time(&mut first);
+    time(&mut second);
     let mut ratios = Vec::new();
     let mut least = [Duration::MAX; 2];
     for round in 0..rounds.max(1) {
