@@ -58,11 +58,13 @@ fn scene(find: &str, replace: &str) -> String {
 
 const OBJ: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
 
-/// Bad input, and what the message must say of it.
+/// Arguments, the files that are there (name, content), and what the message must say.
+type BadInput<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a [&'a str]);
+
 #[test]
 fn bad_input_is_told_by_file_place_and_expectation() {
     let empty = folder(&[]);
-    let table: &[(&str, &[(&str, &str)], &[&str])] = &[
+    let table: &[BadInput] = &[
         ("--scene a.obj", &[("a.obj", "v 0 0 0\nv 1 0\nf 1 1 1\n")], &["a.obj:2", "expected"]),
         ("--scene a.obj", &[("a.obj", "v 0 0 0\nv 1 0 x\n")], &["a.obj:2", "number", "found x"]),
         ("--scene a.obj", &[("a.obj", "v 0 0 nan\nf 1 1 1\n")], &["a.obj:1", "expected"]),

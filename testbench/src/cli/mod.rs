@@ -215,7 +215,7 @@ impl Common {
             CullChoice::None => Cull::None,
             CullChoice::Back => Cull::Back,
         };
-        let options = scene::Options { cull, ..scene::Options::default() };
+        let options = scene::Options { cull, specular_threshold: settings.specular_threshold };
         Ok(scene.geometry(&Formats::new(&settings.config), &options)?)
     }
 
