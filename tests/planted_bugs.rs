@@ -138,9 +138,9 @@ fn edge_interpolator() {
         "default",
         file,
         &[
-            ("assign sum = from + by;", "assign sum = from - by;"),
-            ("is_load | beat_move_i", "is_load & beat_move_i"),
-            ("beat_move_i ? row_a_q : row_q", "beat_move_i ? row_q : row_a_q"),
+            ("value_d = from + by;", "value_d = from - by;"),
+            ("beat_move_i & ~is_load", "beat_move_i | ~is_load"),
+            ("moves ? row_a_q : row_q", "moves ? row_q : row_a_q"),
         ],
     );
     hybrid.catches("paper", file, &[("is_row ? saved_q : value_q", "is_row ? value_q : saved_q")]);
@@ -150,7 +150,7 @@ fn edge_interpolator() {
         &[
             ("(size ^ {BITS{minus}})", "(size | {BITS{minus}})"),
             ("beat_y_move_i[1] & ~is_load", "beat_y_move_i[1] & is_load"),
-            ("sum = from + by + (", "sum = from + by - ("),
+            ("value_d = from + by + (", "value_d = from + by - ("),
         ],
     );
 }
@@ -185,10 +185,11 @@ fn filter() {
         "default",
         "sam_filter.v",
         &[
-            ("accept & beat_include_i & ~full", "accept & beat_include_i | ~full"),
+            ("beat_include_i & ~full", "beat_include_i | ~full"),
             ("so_many[0] & (", "so_many[0] | ("),
             ("(so_many == 0) |", "(so_many != 0) |"),
             ("{so_far, 1'b1} + {", "{so_far, 1'b1} - {"),
+            ("beat_first_i | (count_q == 0)", "beat_first_i | (count_q != 0)"),
             ("beat_valid_i & beat_end_i", "beat_valid_i | beat_end_i"),
         ],
     );
@@ -198,11 +199,7 @@ fn filter() {
 fn filter_division() {
     let file = "sam_filter_division.v";
     let hybrid = within(Target::Hybrid, Target::Filter);
-    hybrid.catches(
-        "default",
-        file,
-        &[("count_i == 1", "count_i != 1"), ("{18'd0, sum_i} * {", "{18'd0, sum_i} + {")],
-    );
+    hybrid.catches("default", file, &[("{18'd0, sum_i} * {", "{18'd0, sum_i} + {")]);
     hybrid.catches(
         "paper",
         file,
@@ -266,9 +263,9 @@ fn blend() {
         &[
             ("{1'b0, pixel_alpha_i} + {", "{1'b0, pixel_alpha_i} - {"),
             ("pixel_area_i[0] ? alpha : 9'd0", "pixel_area_i[0] ? 9'd0 : alpha"),
-            ("{1'b0, source} - {1'b0, background}", "{1'b0, source} + {1'b0, background}"),
-            ("8'h80} + product", "8'h80} - product"),
-            ("factor_valid_q & colour_free)  colour_q", "factor_valid_q | colour_free)  colour_q"),
+            ("pixel_rgb_i[8*i +: 8]} - {", "pixel_rgb_i[8*i +: 8]} + {"),
+            ("1'b1} + change_q", "1'b1} - change_q"),
+            ("factor_valid_q & colour_free) change_q", "factor_valid_q | colour_free) change_q"),
         ],
     );
     hybrid.catches(
@@ -324,7 +321,7 @@ fn redirect() {
         &[
             ("single_i ? primary_here : ~slot_eye_i", "single_i ? primary_here : slot_eye_i"),
             ("~secondary_here | secondary_taken", "~secondary_here & secondary_taken"),
-            ("rst_i | (slot_valid_i & slot_ready_o)", "rst_i | (slot_valid_i | slot_ready_o)"),
+            ("primary_done & ~secondary_done", "primary_done | ~secondary_done"),
         ],
     );
     minimal.catches("paper", file, &[("eye_i ^ ~right_primary", "eye_i & ~right_primary")]);
@@ -339,7 +336,7 @@ fn slot_queue() {
         "default",
         file,
         &[
-            ("same_place & ~leaving", "same_place & leaving"),
+            (": same_place & ~left", ": same_place & left"),
             ("answer_depth < response_depth_i", "answer_depth <= response_depth_i"),
             ("leave_secondary & colour_visible_i", "leave_secondary | colour_visible_i"),
             ("other ? primary_q : secondary_q", "other ? secondary_q : primary_q"),
@@ -350,8 +347,8 @@ fn slot_queue() {
         "paper",
         file,
         &[
-            ("~read_q | request_taken", "~read_q & request_taken"),
-            ("read_q & ~request_taken", "read_q | ~request_taken"),
+            ("keep & (next_q | enter_read)", "keep & (next_q & enter_read)"),
+            ("read_q & ~(request_valid_o", "read_q | ~(request_valid_o"),
         ],
     );
     hybrid.catches(
@@ -405,14 +402,7 @@ fn parts_of_the_systems() {
             ("accept_i & is_load)                       void", "accept_i | is_load) void"),
         ],
     );
-    minimal.catches(
-        "default",
-        "sam_stage.v",
-        &[
-            ("else if (in_ready_o)", "else if (~in_ready_o)"),
-            ("in_valid_i & in_ready_o", "in_valid_i | in_ready_o"),
-        ],
-    );
+    minimal.catches("default", "sam_stage.v", &[("else if (in_ready_o)", "else if (~in_ready_o)")]);
     minimal.catches("paper", "sam_popcount.v", &[("ones = ones + {", "ones = ones - {")]);
     minimal.catches(
         "default",

@@ -38,6 +38,18 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Counts a polygon by how it is drawn.
+    pub fn note(&mut self, plan: &Plan) {
+        self.polygons += 1;
+        match plan {
+            Plan::Nothing => self.nothing += 1,
+            Plan::Monocular { reason, .. } => {
+                *self.monocular.entry(*reason).or_default() += 1;
+            }
+            Plan::Derived(_) => self.derived += 1,
+        }
+    }
+
     /// All beats.
     pub fn beats(&self) -> u64 {
         self.derived_beats + self.monocular_beats
@@ -72,19 +84,16 @@ impl<'a> Primary<'a> {
 
     /// Draws a polygon.
     pub fn draw(&mut self, polygon: &Polygon, sink: &mut impl Sink) {
-        self.counts.polygons += 1;
-        match self.planner.plan(polygon) {
-            Plan::Nothing => self.counts.nothing += 1,
-            Plan::Monocular { reason, eyes } => {
-                *self.counts.monocular.entry(reason).or_default() += 1;
+        let plan = self.planner.plan(polygon);
+        self.counts.note(&plan);
+        match plan {
+            Plan::Nothing => {}
+            Plan::Monocular { eyes, .. } => {
                 for eye in Eye::BOTH.into_iter().filter(|&eye| eyes[eye as usize]) {
                     self.monocular(polygon, eye, sink);
                 }
             }
-            Plan::Derived(derived) => {
-                self.counts.derived += 1;
-                self.derived(polygon, &derived, sink);
-            }
+            Plan::Derived(derived) => self.derived(polygon, &derived, sink),
         }
     }
 

@@ -79,6 +79,14 @@ impl Job<'_> {
         primary.counts
     }
 
+    /// How the polygons would be drawn, without drawing them: no beats are counted.
+    pub fn planned(&self, minimal: bool) -> Counts {
+        let planner = self.planner(minimal);
+        let mut counts = Counts::default();
+        pieces(self.polygons).for_each(|polygon| counts.note(&planner.plan(&polygon)));
+        counts
+    }
+
     /// Draws both views by a system.
     pub fn derived(&self, minimal: bool) -> (Frames, Counts) {
         let mut frames = self.frames(minimal);

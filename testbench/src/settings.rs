@@ -2,11 +2,12 @@
 
 use thiserror::Error;
 use wheatstone_golden::config::{Config, Parameter, ParameterError, PARAMETERS};
+use wheatstone_golden::scene;
 use wheatstone_golden::setup::{Arrangement, Options, Sampling, Specular};
 use wheatstone_golden::texture::Lookup;
 
 /// Choices of a run that are not built into the hardware, as the command line names them.
-pub const RUN_PARAMETERS: [Parameter; 7] = [
+pub const RUN_PARAMETERS: [Parameter; 8] = [
     run(
         "cost_rule",
         &["on", "off"],
@@ -16,6 +17,11 @@ pub const RUN_PARAMETERS: [Parameter; 7] = [
         "specular",
         &["exception", "approximation", "integrated"],
         "highlights that the eyes see differently",
+    ),
+    run(
+        "specular_threshold",
+        &["2", "0", "1", "4", "8", "16", "32", "64"],
+        "largest difference between the eyes' colours of a corner that is no highlight",
     ),
     run(
         "sampling",
@@ -47,6 +53,8 @@ pub struct Settings {
     pub config: Config,
     /// Choices of setup.
     pub options: Options,
+    /// Largest difference between the eyes' colours of a corner that is no highlight.
+    pub specular_threshold: u8,
     /// Lookup of texels.
     pub lookup: Lookup,
     /// Clocks from a background read to its answer; random where none is fixed.
@@ -118,6 +126,7 @@ impl Settings {
         let mut settings = Settings {
             config: built,
             options: Options::new(&built),
+            specular_threshold: scene::Options::default().specular_threshold,
             lookup: Lookup::Nearest,
             latency: None,
         };
@@ -137,6 +146,9 @@ impl Settings {
             "specular" => {
                 options.specular =
                     [Specular::Exception, Specular::Approximation, Specular::Integrated][index];
+            }
+            "specular_threshold" => {
+                self.specular_threshold = [2, 0, 1, 4, 8, 16, 32, 64][index];
             }
             "sampling" => {
                 options.sampling =

@@ -242,6 +242,7 @@ impl<'a> Builder<'a> {
         let eyes = || Eye::BOTH.into_iter().filter(|&eye| base.eyes.contains(eye));
         if eyes().all(|eye| doubled_area(points, eye) == 0) {
             self.counts.empty += 1;
+            self.counts.first_empty.get_or_insert(base.id);
             return;
         }
         if eyes().all(|eye| self.is_outside(points, eye)) {

@@ -130,5 +130,10 @@ pub fn check_size(width: u32, height: u32, limit: u32) -> Result<(), SceneError>
 
 /// The bytes of a file.
 pub fn read(file: &Path) -> Result<Vec<u8>, SceneError> {
-    std::fs::read(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })
+    let wrong = |source| SceneError::Read { file: file.to_owned(), source };
+    // What is no file, such as a pipe, may never end.
+    if !std::fs::metadata(file).map_err(wrong)?.is_file() {
+        return Err(wrong(std::io::Error::other("not a regular file")));
+    }
+    std::fs::read(file).map_err(wrong)
 }

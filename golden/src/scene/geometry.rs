@@ -6,6 +6,7 @@ use super::Scene;
 use crate::formats::{Formats, Rgba};
 use crate::setup::Polygon;
 use crate::texture::Texture;
+use std::fmt;
 
 /// Which faces are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,9 +29,9 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Nothing is left out; a difference of 9 or more is noticeable.
+    /// Nothing is left out; a difference of 3 or more shows as a seam between smooth polygons.
     fn default() -> Options {
-        Options { cull: Cull::None, specular_threshold: 8 }
+        Options { cull: Cull::None, specular_threshold: 2 }
     }
 }
 
@@ -55,6 +56,27 @@ pub struct Counts {
     pub outside: usize,
     /// Triangles, faces and pieces of them without area.
     pub empty: usize,
+    /// Id of the first of those.
+    pub first_empty: Option<u32>,
+}
+
+impl fmt::Display for Counts {
+    /// What is not drawn, and why; nothing where all is.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let empty = match self.first_empty {
+            Some(id) => format!("without area (triangle {id} is the first)"),
+            None => "without area".into(),
+        };
+        let parts = [
+            (self.empty, empty.as_str()),
+            (self.outside, "outside the views"),
+            (self.culled, "culled for both eyes"),
+            (self.half_culled, "culled for one eye"),
+        ];
+        let some = parts.iter().filter(|(count, _)| *count > 0);
+        let some: Vec<String> = some.map(|(count, what)| format!("{count} {what}")).collect();
+        f.write_str(&some.join(", "))
+    }
 }
 
 /// Polygons for setup.

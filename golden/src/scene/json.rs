@@ -104,7 +104,7 @@ fn broken(file: &Path, error: &serde_json::Error, path: &str) -> InputError {
             let found = found.replace("invalid type: ", "").replace("invalid value: ", "");
             let found = found.replace("invalid length ", "length ");
             let field = if path.is_empty() { "file" } else { path };
-            return new(field, expected, &found);
+            return new(field, in_words(expected), &found);
         }
         if message.starts_with("missing field") {
             let field = [path, quoted].join(if path.is_empty() { "" } else { "." });
@@ -123,14 +123,31 @@ fn broken(file: &Path, error: &serde_json::Error, path: &str) -> InputError {
     }
 }
 
+/// A Rust type as those know it who write the file.
+fn in_words(expected: &str) -> &str {
+    match expected {
+        "u32" | "u64" | "usize" => "a whole number from 0",
+        "f64" => "a number",
+        "a boolean" => "true or false",
+        _ if expected.starts_with("struct ") => "an object in braces",
+        _ if expected.starts_with("a sequence") => "a list in brackets",
+        _ => expected,
+    }
+}
+
 /// Reads a scene file.
 pub fn load(file: &Path) -> Result<Scene, SceneError> {
     let bytes = read(file)?;
-    let text = std::str::from_utf8(&bytes).map_err(|e| {
+    let text = std::str::from_utf8(without_mark(&bytes)).map_err(|e| {
         let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
         InputError::new(file, line, "file", "UTF-8 text", "other bytes")
     })?;
     scene(file, text)
+}
+
+/// A text without the byte order mark that some editors put in front.
+pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
 /// Makes a scene of a scene file's text; `file` is its name in messages.

@@ -27,7 +27,7 @@
 //! `[0.25, 0.25, 0.25]`). What is not given takes its default, and all other lights go.
 
 use super::error::{check_size, InputError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT};
-use super::json::{parse, Channel};
+use super::json::{parse, without_mark, Channel};
 use super::light::{Light, Lighting, Source};
 use super::locate::Locator;
 use super::vector::Vec3;
@@ -93,7 +93,7 @@ struct LightFile {
 impl RigFile {
     /// Reads a rig file.
     pub fn load(file: &Path) -> Result<RigFile, SceneError> {
-        let text = String::from_utf8_lossy(&super::error::read(file)?).into_owned();
+        let text = String::from_utf8_lossy(without_mark(&super::error::read(file)?)).into_owned();
         RigFile::read(file, text)
     }
 

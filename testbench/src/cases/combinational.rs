@@ -145,7 +145,7 @@ pub fn display_corners(config: &Config, width: u32) -> Case {
     case.statics = vec![width.into()];
     let end = 1 << (PixelX::bits(f) - 1);
     let last = (1 << f.coordinate_bits) - 1;
-    for x in [-end, -1, 0, 1, i64::from(width) - 1, width.into(), last, end - 1] {
+    for x in [-end, -1, 0, 1, i64::from(width) - 1, width.into(), last.min(end - 1), end - 1] {
         for y in [0, 1, last / 2, last] {
             for mode in 0..4 {
                 let point = DisplayPoint {

@@ -173,7 +173,7 @@ impl Console {
                     bar.println(Console::line(entry));
                 }
             }
-            (Event::End(entry), None) => eprintln!("{}", Console::line(entry)),
+            (Event::End(entry), None) => tell!("{}", Console::line(entry)),
             _ => {}
         }
     }

@@ -10,6 +10,14 @@ macro_rules! say {
     }};
 }
 
+/// Prints a line of progress or an error, likewise.
+macro_rules! tell {
+    ($($argument:tt)*) => {{
+        use std::io::Write;
+        let _ = writeln!(std::io::stderr(), $($argument)*);
+    }};
+}
+
 mod cosim;
 mod generate;
 mod info;
@@ -184,7 +192,7 @@ pub fn main() -> ExitCode {
         Command::Generate(args) => generate::run(args),
     };
     let status = result.unwrap_or_else(|failure| {
-        eprintln!("error: {failure}");
+        tell!("error: {failure}");
         failure.status()
     });
     ExitCode::from(status)
@@ -207,7 +215,7 @@ impl Common {
             CullChoice::None => Cull::None,
             CullChoice::Back => Cull::Back,
         };
-        let options = scene::Options { cull, ..scene::Options::default() };
+        let options = scene::Options { cull, specular_threshold: settings.specular_threshold };
         Ok(scene.geometry(&Formats::new(&settings.config), &options)?)
     }
 
@@ -275,7 +283,7 @@ fn builder(quiet: bool) -> Result<Builder, Failure> {
     let builder = Builder::new(Toolchain::find()?, cache_folder());
     Ok(builder.on_progress(move |progress| {
         if !quiet {
-            eprintln!("{progress}");
+            tell!("{progress}");
         }
     }))
 }

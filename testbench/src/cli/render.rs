@@ -45,13 +45,15 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     // Before the work, so that a folder that cannot be made costs none.
     std::fs::create_dir_all(&args.out)
         .map_err(|source| WriteError { file: args.out.clone(), source })?;
+    left_out(&geometry);
     let job = job(&settings, &geometry, settings.options);
     let start = std::time::Instant::now();
     let direct = job.direct();
     let direct_time = start.elapsed();
     let frames = match args.method {
         MethodChoice::Direct => {
-            say!("{} polygons, both views directly in {direct_time:.1?}", geometry.polygons.len());
+            say!("both views directly in {direct_time:.1?}");
+            say!("the hybrid would draw {}", drawn_line(&job.planned(false)));
             direct
         }
         method => {
@@ -82,6 +84,17 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
         say!("image {}", file.display());
     }
     Ok(OK)
+}
+
+/// Says what is not drawn.
+fn left_out(geometry: &Geometry) {
+    let text = geometry.counts.to_string();
+    if !text.is_empty() {
+        say!("left out: {text}");
+    }
+    if geometry.polygons.is_empty() {
+        tell!("warning: nothing to draw: all of the scene is left out, or there is nothing in it");
+    }
 }
 
 fn save(folder: &Path, name: &str, picture: &image::RgbImage) -> Result<(), Failure> {

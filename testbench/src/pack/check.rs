@@ -66,7 +66,8 @@ impl Checker<'_> {
     /// The content of a file that has the hash it should have.
     fn content(&self, field: &str, file: &HashedFile) -> Result<Vec<u8>, PackError> {
         let path = self.folder.join(&file.file);
-        if file.file.contains(['/', '\\']) {
+        let is_name = Path::new(&file.file).file_name().is_some_and(|name| *name == *file.file);
+        if !is_name || file.file.contains('\\') {
             return self
                 .same(field, file.file.as_str(), "a name without a folder")
                 .map(|()| Vec::new());

@@ -99,7 +99,9 @@ pub fn drawn_line(drawn: &Drawn) -> String {
     let why = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
     parts.push(format!("{} monocular{why}", grouped(monocular)));
     parts.push(format!("{} covering nothing", grouped(drawn.nothing)));
-    parts.push(format!("{} beats", grouped(drawn.beats())));
+    if drawn.beats() > 0 {
+        parts.push(format!("{} beats", grouped(drawn.beats())));
+    }
     parts.join(", ")
 }
 

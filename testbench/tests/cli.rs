@@ -1,0 +1,260 @@
+//! The program as a user meets it: exit statuses, messages, and what a run leaves behind.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::Duration;
+
+/// The program, in a folder.
+fn program(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wheatstone"));
+    command.current_dir(folder).env("NO_COLOR", "1");
+    command
+}
+
+fn run(folder: &Path, line: &str) -> Output {
+    program(folder).args(line.split_whitespace()).output().expect("the program runs")
+}
+
+fn said(output: &Output) -> String {
+    let [out, err] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    format!("{out}{err}")
+}
+
+/// A folder with files in it.
+fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).expect("written");
+    }
+    folder
+}
+
+/// Names of all files under a folder.
+fn files(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else {
+            found.push(path.to_string_lossy().into_owned());
+        }
+    }
+    found
+}
+
+/// A triangle in the scene format, with one text in it replaced.
+fn scene(find: &str, replace: &str) -> String {
+    let text = r#"{"format": "stereo-scene/1", "width": 64, "height": 48,
+"pixels_per_unit": 10, "eye_separation": 0.6, "viewing_distance": 5,
+"background": [0, 0, 0],
+"vertices": [[-1, -1, 0], [1, -1, 0], [0, 1, 1]],
+"colors": [[255, 0, 0], [0, 255, 0], [0, 0, 255]],
+"triangles": [[0, 1, 2]]}"#;
+    assert!(find.is_empty() || text.contains(find), "{find}");
+    text.replace(find, replace)
+}
+
+const OBJ: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
+
+/// Arguments, the files that are there (name, content), and what the message must say.
+type BadInput<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a [&'a str]);
+
+#[test]
+fn bad_input_is_told_by_file_place_and_expectation() {
+    let empty = folder(&[]);
+    let table: &[BadInput] = &[
+        ("--scene a.obj", &[("a.obj", "v 0 0 0\nv 1 0\nf 1 1 1\n")], &["a.obj:2", "expected"]),
+        ("--scene a.obj", &[("a.obj", "v 0 0 0\nv 1 0 x\n")], &["a.obj:2", "number", "found x"]),
+        ("--scene a.obj", &[("a.obj", "v 0 0 nan\nf 1 1 1\n")], &["a.obj:1", "expected"]),
+        ("--scene a.obj", &[("a.obj", "v 0 0 1e400\nf 1 1 1\n")], &["a.obj:1", "expected"]),
+        ("--scene a.obj", &[("a.obj", "v 0 0 0\nf 1 2 3\n")], &["a.obj:2", "expected"]),
+        ("--scene a.obj", &[("a.obj", "")], &["a.obj", "expected"]),
+        ("--scene a.obj", &[], &["a.obj", "cannot be read"]),
+        ("--scene a.obj", &[("a.obj", OBJ)], &["a.obj:1", "m.mtl", "not there"]),
+        ("--scene a.obj", &[("a.obj", OBJ), ("m.mtl", "newmtl a\nKd 1 0\n")], &["m.mtl:2", "Kd"]),
+        (
+            "--scene a.obj",
+            &[("a.obj", OBJ), ("m.mtl", "newmtl a\nmap_Kd none.png\n")],
+            &["m.mtl:2", "none.png", "No such file"],
+        ),
+        (
+            "--scene a.obj",
+            &[("a.obj", OBJ), ("m.mtl", "newmtl a\nmap_Kd t.png\n"), ("t.png", "no picture")],
+            &["t.png"],
+        ),
+        ("--scene s.json", &[("s.json", "{\"format\"")], &["s.json:1", "expected"]),
+        ("--scene s.json", &[("s.json", &scene("/1", "/2"))], &["s.json:1", "stereo-scene/1"]),
+        ("--scene s.json", &[("s.json", &scene("64", "0"))], &["s.json:1", "width", "found 0"]),
+        ("--scene s.json", &[("s.json", &scene("64", "2049"))], &["s.json:1", "width", "2049"]),
+        ("--scene s.json", &[("s.json", &scene("1, 2]]", "1, 3]]"))], &["s.json:6", "triangles"]),
+        ("--scene s.json", &[("s.json", &scene("255, 0, 0", "256, 0, 0"))], &["s.json:5", "256"]),
+        ("--scene s.json", &[("s.json", &scene("[0, 1, 1]", "[0, 1]"))], &["s.json:4", "vertices"]),
+        ("--scene s.json", &[("s.json", &scene("0.6", "-1"))], &["s.json:2", "eye_separation"]),
+        ("--scene s.json", &[("s.json", &scene("0.6", "1e999"))], &["s.json:2", "expected"]),
+        ("--scene s.json", &[("s.json", &scene("\"width\": 64,", ""))], &["s.json", "width"]),
+        ("--scene s.json", &[("s.json", &scene("{\"f", "{\"q\": 1, \"f"))], &["s.json", "q"]),
+        ("--scene ramp --rig r.json", &[], &["r.json", "cannot be read"]),
+        ("--scene ramp --rig r.json", &[("r.json", "{\"near\": -1}")], &["r.json:1", "near"]),
+        ("--scene ramp --rig r.json", &[("r.json", "{\"eyes\": 2}")], &["r.json:1", "eyes"]),
+        ("--scene nothing", &[], &["nothing", "teapot", ".obj"]),
+        ("--scene ramp --size 0x5", &[], &["0x5", "1x1 to 2048x2048"]),
+        ("--scene ramp --size 5x2049", &[], &["5x2049", "1x1 to 2048x2048"]),
+        ("--scene ramp --size 641x480 --config paper", &[], &["641x480", "640x640"]),
+        ("--scene ramp --size 64", &[], &["64", "640x480"]),
+        ("--scene ramp --param speed=9", &[], &["speed=9", "subpixel_bits"]),
+        ("--scene ramp --param slots=3", &[], &["slots", "2, 4, 8"]),
+        ("--scene ramp --param slots", &[], &["NAME=VALUE"]),
+        ("--scene ramp --config huge", &[], &["huge", "default, paper, full"]),
+        ("--scene ramp --method magic", &[], &["magic", "direct"]),
+        ("--scene ramp --stereo purple", &[], &["purple", "anaglyph"]),
+    ];
+    for (arguments, given, words) in table {
+        let folder = folder(given);
+        let method = if arguments.contains("--method") { "" } else { "--method hybrid" };
+        let line = format!("render {arguments} {method} --out pictures");
+        let output = run(folder.path(), &line);
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+        for word in *words {
+            assert!(text.contains(word), "{line}: no “{word}” in: {text}");
+        }
+        assert!(!text.contains("panicked"), "{line}: {text}");
+        let pictures = folder.path().join("pictures");
+        assert!(!pictures.exists() || files(&pictures).is_empty(), "{line} left files");
+    }
+    for line in
+        ["cosim warp", "cosim --beats 0", "check nowhere", "frob", "waves", "waves filter hybrid"]
+    {
+        let output = run(empty.path(), line);
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", said(&output));
+    }
+}
+
+#[test]
+fn triangles_without_area_are_legal_and_draw_nothing() {
+    let flat = scene("[0, 1, 1]", "[1, -1, 0]");
+    let folder = folder(&[("s.json", &flat)]);
+    for method in ["direct", "minimal", "hybrid"] {
+        let output =
+            run(folder.path(), &format!("render --scene s.json --method {method} --out p"));
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        let ids = image::open(folder.path().join("p/left_ids.png")).expect("a picture").to_rgb8();
+        assert!(ids.pixels().all(|p| p.0 == [0; 3]));
+    }
+}
+
+#[test]
+fn pictures_have_ids_of_the_triangles() {
+    let folder = folder(&[("s.json", &scene("", ""))]);
+    let output =
+        run(folder.path(), "render --scene s.json --method direct --out p --stereo anaglyph");
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    for eye in ["left", "right"] {
+        let ids =
+            image::open(folder.path().join(format!("p/{eye}_ids.png"))).expect("ids").to_rgb8();
+        assert_eq!(ids.dimensions(), (64, 48));
+        assert_eq!(ids.get_pixel(32, 24).0, [0, 0, 1], "triangle 0 is drawn as 1");
+        assert_eq!(ids.get_pixel(0, 0).0, [0; 3]);
+    }
+    assert!(folder.path().join("p/anaglyph.png").exists());
+}
+
+#[test]
+fn places_that_cannot_be_written_are_named_before_the_work() {
+    let folder = folder(&[("file", "")]);
+    for line in [
+        "render --scene ramp --method direct --out file/pictures",
+        "vectors display --beats 10 --out file/packs",
+        "waves display --out file/waves",
+    ] {
+        let output = run(folder.path(), line);
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+        assert!(text.contains("file"), "{line}: {text}");
+    }
+}
+
+/// A limit to the size of files breaks off a write in its middle, as a full disk does.
+#[test]
+fn a_write_that_fails_half_way_is_an_error_and_leaves_nothing() {
+    for line in [
+        "render --scene room --method direct --size 320x240 --out p",
+        "vectors filter --beats 2000 --out p",
+    ] {
+        let folder = folder(&[]);
+        let program = env!("CARGO_BIN_EXE_wheatstone");
+        let limited = format!("trap '' XFSZ; ulimit -f 8; exec {program} {line}");
+        let mut shell = Command::new("sh");
+        let output = shell.current_dir(folder.path()).args(["-c", &limited]).output().expect("sh");
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+        assert!(text.contains("File too large") && text.contains('p'), "{line}: {text}");
+        let left = files(folder.path());
+        assert!(left.iter().all(|file| image::open(file).is_ok()), "{line} left {left:?}");
+    }
+}
+
+#[test]
+fn a_killed_run_leaves_no_half_written_file() {
+    for (n, wait) in [5, 40, 120, 250].into_iter().enumerate() {
+        let folder = folder(&[]);
+        let line = "render --scene room --method hybrid --out p --stereo anaglyph,wiggle";
+        let mut child = program(folder.path())
+            .args(line.split_whitespace())
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("started");
+        std::thread::sleep(Duration::from_millis(wait));
+        child.kill().expect("killed");
+        child.wait().expect("ended");
+        for file in files(folder.path()).iter().filter(|file| !file.ends_with(".part")) {
+            assert!(image::open(file).is_ok(), "run {n}: {file} is half-written");
+        }
+    }
+}
+
+#[test]
+fn a_closed_pipe_is_no_panic() {
+    use std::process::Stdio;
+    let folder = folder(&[]);
+    let mut child = program(folder.path())
+        .args(["cosim", "display", "--beats", "1000", "--jobs", "1"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("started");
+    drop(child.stdout.take());
+    drop(child.stderr.take());
+    assert_eq!(child.wait().expect("ended").code(), Some(0));
+}
+
+#[test]
+fn reports_say_what_was_compared() {
+    let folder = folder(&[]);
+    let line = "cosim redirect --beats 1000 --json r.json --junit r.xml --seed 7";
+    let output = run(folder.path(), line);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let json = fs::read_to_string(folder.path().join("r.json")).expect("the report");
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let text = json.to_string();
+    assert!(text.contains("redirect") && text.contains("mismatch"), "{text}");
+    let junit = fs::read_to_string(folder.path().join("r.xml")).expect("the report");
+    assert!(junit.contains("<testsuite") && junit.contains("redirect"), "{junit}");
+}
+
+/// Without the simulator the program says how to install it, and exits with 3.
+#[test]
+fn a_missing_simulator_is_named_with_its_remedy() {
+    let folder = folder(&[]);
+    let output = program(folder.path())
+        .args(["cosim", "filter", "--beats", "10"])
+        .env("PATH", folder.path())
+        .output()
+        .expect("the program runs");
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(3), "{text}");
+    assert!(text.contains("verilator") && text.contains("apt"), "{text}");
+}
