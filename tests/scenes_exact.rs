@@ -24,6 +24,7 @@ fn job(config: Config, options: Options, geometry: &Geometry) -> Job<'_> {
         width: geometry.width,
         height: geometry.height,
         background: geometry.background.rgb(),
+        scissor: geometry.scissor,
         polygons: &geometry.polygons,
         textures: &geometry.textures,
         lookup: Lookup::Bilinear,

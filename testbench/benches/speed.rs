@@ -115,6 +115,7 @@ fn compare_golden(library: &Library) -> Result<f64, Failure> {
         width: geometry.width,
         height: geometry.height,
         background: geometry.background.rgb(),
+        scissor: geometry.scissor,
         polygons: &geometry.polygons,
         textures: &geometry.textures,
         lookup: Lookup::Nearest,
