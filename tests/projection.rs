@@ -289,17 +289,52 @@ fn disparity_on_a_plane_is_affine_in_screen_coordinates() {
 }
 
 #[test]
+fn window_planes_are_where_the_guard_band_ends() {
+    let mut random = Rng::with_seed(7);
+    for mut rig in mapped_rigs().into_iter().chain(Kind::ALL.map(|kind| rig(kind.into()))) {
+        for tilt in [0.0, 25.0] {
+            if rig.projection != Projection::Symmetric {
+                rig.head_tilt = tilt;
+            }
+            let camera = camera(&rig);
+            let guard = f64::from(FORMATS.guard_band);
+            let screen_distance = rig.projection.viewer(&rig).screen_distance;
+            for (lens, range) in camera.lenses().iter().zip(rig.projection.ranges(&rig)) {
+                for _ in 0..500 {
+                    let p = point(&mut random, &rig, [range.near, range.far]);
+                    let w = p[2] + rig.viewing_distance;
+                    for eye in Eye::BOTH {
+                        let [x, y] = lens.pixel(p, eye);
+                        let inside = [x, 640.0 - x, y, 480.0 - y].map(|n| n + guard);
+                        for (plane, inside) in lens.window_planes(eye).iter().zip(inside) {
+                            let distance = plane.at(p) * screen_distance / w;
+                            assert!(
+                                (distance - inside).abs() < 1e-7,
+                                "{distance} {inside} {rig:?}"
+                            );
+                        }
+                    }
+                    let ends = lens.depth_planes().map(|plane| plane.at(p));
+                    assert!((ends[0] - (w - range.near)).abs() < 1e-7);
+                    assert!((ends[1] - (range.far - w)).abs() < 1e-7);
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn fields_of_view_are_those_of_table_1() {
     let width = 2.0 * 19.0 * 20f64.to_radians().tan();
     let screen = Screen { width, distance: 19.0, eye_distance: 2.5 };
     for (clipping, rows) in [
         (
             Clipping::Symmetric,
-            [[30.8, 0.0, 30.8, 61.6], [6.9, 26.2, 6.9, 40.0], [0.0, 33.2, 0.0, 33.2]],
+            [[30.8, 0.0, 30.8, 61.6], [6.92, 26.17, 6.92, 40.0], [0.0, 33.2, 0.0, 33.2]],
         ),
         (
             Clipping::Asymmetric,
-            [[36.0, 0.0, 36.0, 72.0], [0.0, 40.0, 0.0, 40.0], [6.65, 33.2, 6.65, 46.5]],
+            [[36.05, 0.0, 36.05, 72.1], [0.0, 40.0, 0.0, 40.0], [6.65, 33.2, 6.65, 46.5]],
         ),
     ] {
         let distances = [screen.nearest(clipping), 19.0, f64::INFINITY];
@@ -402,6 +437,9 @@ fn perceived_depth_changes_but_what_is_at_the_screen_stays() {
     }
 }
 
+/// A pixel belongs to one of the polygons that share an edge, whatever their depths there.
+const POINTS: Config = Config { antialias: false, ..EXACT };
+
 /// Partitions that all show things where they are: cut, but projected as by two centres.
 fn transparent(borders: &[f64]) -> Projection {
     let partition = |pair: &[f64]| Partition {
@@ -419,14 +457,14 @@ fn partitions_cut_polygons_without_a_seam() {
     for name in ["room", "ramp", "teapot"] {
         let mut scene = scene(name, Kind::TwoCentres);
         let (near, far, d) = (scene.rig.near(), scene.rig.far(), scene.rig.viewing_distance);
-        let plain = geometry(&scene, &EXACT);
+        let plain = geometry(&scene, &POINTS);
         scene.rig.projection =
             transparent(&[near, 0.9 * d, 0.97 * d, 1.02 * d, 1.1 * d, 1.5 * d, far]);
-        let cut = geometry(&scene, &EXACT);
+        let cut = geometry(&scene, &POINTS);
         assert!(cut.counts.clipped > plain.counts.clipped + 10, "{name}: {:?}", cut.counts);
         assert_eq!(cut.counts.triangles, plain.counts.triangles);
-        let options = Options::new(&EXACT);
-        let views = [&plain, &cut].map(|geometry| job(EXACT, options, geometry).direct());
+        let options = Options::new(&POINTS);
+        let views = [&plain, &cut].map(|geometry| job(POINTS, options, geometry).direct());
         let [plain, cut] = views;
         let (mut differ, mut pixels, mut holes) = (0, 0, 0);
         for (plain, cut) in plain.iter().zip(&cut) {
@@ -436,7 +474,7 @@ fn partitions_cut_polygons_without_a_seam() {
             holes += plain.id.iter().zip(&cut.id).filter(hole).count();
         }
         println!("{name}: {differ} of {pixels} ids differ, {holes} holes");
-        assert!(differ * 500 < pixels, "{name}: {differ} ids differ");
+        assert!(differ * 5000 < pixels, "{name}: {differ} ids differ");
         assert!(holes * 20_000 < pixels, "{name}: {holes} holes");
     }
 }
@@ -445,7 +483,7 @@ fn partitions_cut_polygons_without_a_seam() {
 fn partitions_draw_their_own_ranges_at_common_depths() {
     let mut scene = scene("room", Kind::TwoCentres);
     let d = scene.rig.viewing_distance;
-    let borders = [[0.5 * d, 0.9 * d], [1.0 * d, 1.3 * d]];
+    let borders = [[0.5 * d, 1.0 * d], [1.01 * d, 1.3 * d]];
     let partitions = borders.map(|[near, far]| Partition {
         near,
         far,
@@ -466,14 +504,13 @@ fn partitions_draw_their_own_ranges_at_common_depths() {
         };
         assert!(ranges.into_iter().any(within), "{polygon:?}");
     }
-    let mut ids = ranges.map(|[near, far]| {
+    let ids = ranges.map(|[near, far]| {
         let of = drawn.polygons.iter().filter(|p| (near..=far).contains(&p.vertices[0].depth));
         of.map(|p| p.id).collect::<std::collections::BTreeSet<u32>>()
     });
     assert!(ids.iter().all(|ids| !ids.is_empty()));
     // Some polygons go on in the next partition, under the same id.
-    ids[0].retain(|id| ids[1].contains(id));
-    assert!(!ids[0].is_empty());
+    assert!(!ids[0].is_disjoint(&ids[1]));
 }
 
 #[test]
@@ -588,8 +625,9 @@ fn the_verilog_draws_every_projection() {
         }
         let scene = entry.scene.as_ref().expect("a scene");
         assert!(scene.written.iter().all(|&n| n > 500) && scene.pixels == 2 * 96 * 72);
-        let blank =
-            |eye: usize, x: usize| (0..72).all(|y| scene.frames.eyes[eye].id[y * 96 + x] == NO_ID);
+        let blank = |eye: usize, x: usize| {
+            (0..72).all(|y| scene.frames.eyes[eye].depth[y * 96 + x] == DEPTH_MAX)
+        };
         let strips = [blank(0, 95), blank(1, 0), blank(0, 0), blank(1, 95)];
         let symmetric = entry.name == Kind::Symmetric.name();
         assert_eq!(strips, [symmetric, symmetric, false, false], "{}", entry.name);
