@@ -381,17 +381,7 @@ fn geometry(scene: &Scene, config: &Config) -> Geometry {
 }
 
 fn job(config: Config, options: Options, geometry: &Geometry) -> Job<'_> {
-    Job {
-        config,
-        options,
-        width: geometry.width,
-        height: geometry.height,
-        background: geometry.background.rgb(),
-        scissor: geometry.scissor,
-        polygons: &geometry.polygons,
-        textures: &geometry.textures,
-        lookup: Lookup::Bilinear,
-    }
+    Job::of(geometry, config, options, Lookup::Bilinear)
 }
 
 #[test]

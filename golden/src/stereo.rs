@@ -9,6 +9,7 @@ use crate::pipeline::minimal::Minimal;
 use crate::pipeline::observer::{Blind, Observer};
 use crate::pipeline::{Edges, Output, PrimaryBeat, Setup};
 use crate::primary::{Counts, Primary, Sink};
+use crate::scene::Geometry;
 use crate::setup::{Options, Outline, Planner, Polygon};
 use crate::texture::{Lookup, Texture};
 use std::borrow::Cow;
@@ -45,6 +46,23 @@ pub struct Job<'a> {
     pub textures: &'a [Texture],
     /// How textures are sampled.
     pub lookup: Lookup,
+}
+
+impl<'a> Job<'a> {
+    /// The job that draws a scene's polygons.
+    pub fn of(geometry: &'a Geometry, config: Config, options: Options, lookup: Lookup) -> Job<'a> {
+        Job {
+            config,
+            options,
+            width: geometry.width,
+            height: geometry.height,
+            background: geometry.background.rgb(),
+            scissor: geometry.scissor,
+            polygons: &geometry.polygons,
+            textures: &geometry.textures,
+            lookup,
+        }
+    }
 }
 
 impl Job<'_> {

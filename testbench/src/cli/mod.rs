@@ -271,17 +271,7 @@ impl Stimulus {
 
 /// The job that draws a scene's polygons.
 pub(crate) fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Options) -> Job<'a> {
-    Job {
-        config: settings.config,
-        options,
-        width: geometry.width,
-        height: geometry.height,
-        background: geometry.background.rgb(),
-        scissor: geometry.scissor,
-        polygons: &geometry.polygons,
-        textures: &geometry.textures,
-        lookup: settings.lookup,
-    }
+    Job::of(geometry, settings.config, options, settings.lookup)
 }
 
 /// A builder of models that tells on the terminal what it does.
