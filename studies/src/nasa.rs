@@ -342,7 +342,7 @@ fn plots(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
         points: vec![(0.0, d), (600.0, d)],
     };
     let limits = [limit("MIND", MIND), limit("SD", SD), limit("MAXD", MAXD)];
-    let series = [&[asymptotic.clone()], &limits[..]].concat();
+    let series = [std::slice::from_ref(&asymptotic), &limits[..]].concat();
     plot::lines(&map, "Asymptotic projection", axes, &series)?;
     let four = Series { name: "four partitions".into(), points: curve(&piecewise, 50.0) };
     plot::lines(&pieces, "Piecewise projection", axes, &[four, asymptotic])?;

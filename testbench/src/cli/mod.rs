@@ -310,3 +310,22 @@ fn is_terminal() -> bool {
 fn builtin_names() -> impl Iterator<Item = &'static str> {
     builtin::SCENES.iter().map(|scene| scene.name)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_is_repeated_with_its_projection() {
+        #[derive(Parser)]
+        struct Line {
+            #[command(flatten)]
+            common: Common,
+        }
+        let words = "x --scene room --rig eyes.json --projection piecewise";
+        let line = Line::parse_from(words.split(' '));
+        assert_eq!(line.common.words().join(" "), words.trim_start_matches("x "));
+        let error = Line::try_parse_from("x --projection none".split(' ')).err();
+        assert!(error.is_some_and(|e| e.to_string().contains("two-centres, shear")));
+    }
+}
