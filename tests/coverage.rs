@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::direct::scan;
 use wheatstone_golden::formats::Formats;
+use wheatstone_golden::frame::Scissor;
 use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::record::Recording;
@@ -49,6 +50,7 @@ fn secondary_masks_equal_direct_scan_conversion() {
                     width,
                     height,
                     background: [0; 3],
+                    scissor: Scissor::default(),
                     polygons: std::slice::from_ref(&polygon),
                     textures: &[],
                     lookup: Lookup::Nearest,

@@ -2,6 +2,7 @@
 
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::Formats;
+use wheatstone_golden::frame::Scissor;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::setup::{Options, Polygon};
 use wheatstone_golden::stereo::Job;
@@ -12,7 +13,8 @@ const SIZE: [u32; 2] = [160, 120];
 fn job(config: Config, options: Options, polygons: &[Polygon]) -> Job<'_> {
     let [width, height] = SIZE;
     let (background, textures, lookup) = ([20, 40, 60], &[], Lookup::Nearest);
-    Job { config, options, width, height, background, polygons, textures, lookup }
+    let scissor = Scissor::default();
+    Job { config, options, width, height, background, scissor, polygons, textures, lookup }
 }
 
 /// Draws `count` triangles of a class, a few to a frame, and returns how many were derived.

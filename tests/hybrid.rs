@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
-use wheatstone_golden::frame::Frame;
+use wheatstone_golden::frame::{Frame, Scissor};
 use wheatstone_golden::interface::Beat;
 use wheatstone_golden::pipeline::{Pixel, PrimaryBeat};
 use wheatstone_golden::random::{Class, Triangles};
@@ -28,7 +28,8 @@ const UPRIGHT: Config = Config { tilt: false, ..Config::FULL };
 fn job(config: Config, options: Options, polygons: &[Polygon]) -> Job<'_> {
     let [width, height] = SIZE;
     let (background, textures, lookup) = ([20, 40, 60], &[], Lookup::Nearest);
-    Job { config, options, width, height, background, polygons, textures, lookup }
+    let scissor = Scissor::default();
+    Job { config, options, width, height, background, scissor, polygons, textures, lookup }
 }
 
 /// Polygons one behind and through another, triangles of all classes and convex ones of up to six

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use walk::{each_derived, exact, walk, Fraction};
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
+use wheatstone_golden::frame::Scissor;
 use wheatstone_golden::interface::{Beat, Table};
 use wheatstone_golden::pipeline::{Pixel, PrimaryBeat};
 use wheatstone_golden::random::Class;
@@ -41,6 +42,7 @@ fn a_secondary_pixel_is_the_nearest_covered_primary_pixel_that_maps_into_it() {
                 width,
                 height,
                 background: [0; 3],
+                scissor: Scissor::default(),
                 polygons: std::slice::from_ref(polygon),
                 textures: &[],
                 lookup: Lookup::Nearest,
@@ -101,6 +103,7 @@ fn every_row_ends_within_a_pixel_of_the_direct_one() {
             width,
             height,
             background: [0; 3],
+            scissor: Scissor::default(),
             polygons: std::slice::from_ref(polygon),
             textures: &[],
             lookup: Lookup::Nearest,

@@ -53,7 +53,7 @@ fn projection_is_the_exact_one_rounded() {
     const ONE: i128 = 4096;
     for (d, exact) in [(32, true), (37, false)] {
         let e = 5;
-        let camera = Camera::new(rig(32.0, e as f64, d as f64), 640, 480, &WIDE);
+        let camera = Camera::new(&rig(32.0, e as f64, d as f64), 640, 480, &WIDE);
         let mut random = fastrand::Rng::with_seed(1);
         let mut ties = 0;
         let mut check = |middle: i128, numerator: i128, denominator: i128, snapped: i64| {
@@ -88,14 +88,14 @@ fn projection_is_the_exact_one_rounded() {
 
 #[test]
 fn far_points_are_displaced_outward() {
-    let camera = Camera::new(rig(10.0, 6.0, 50.0), 640, 480, &WIDE);
+    let camera = Camera::new(&rig(10.0, 6.0, 50.0), 640, 480, &WIDE);
     // At z = d half of the separation, at z = -d/2 the whole of it, crossed.
     assert_eq!(camera.pixel([0.0, 0.0, 50.0], Eye::Left), [305.0, 240.0]);
     assert_eq!(camera.pixel([0.0, 0.0, 50.0], Eye::Right), [335.0, 240.0]);
     assert_eq!(camera.pixel([0.0, 1.0, -25.0], Eye::Left), [350.0, 220.0]);
     assert_eq!(camera.pixel([2.0, -1.0, 0.0], Eye::Left), [340.0, 250.0]);
     let tilted = Rig { head_tilt: 90.0, ..rig(10.0, 6.0, 50.0) };
-    let camera = Camera::new(tilted, 640, 480, &WIDE);
+    let camera = Camera::new(&tilted, 640, 480, &WIDE);
     // The left eye is below, the right one above.
     assert_eq!(camera.pixel([0.0, 0.0, 50.0], Eye::Left), [320.0, 255.0]);
     assert_eq!(tilted.eye(Eye::Right), [0.0, 3.0, -50.0]);
@@ -103,13 +103,13 @@ fn far_points_are_displaced_outward() {
 
 #[test]
 fn ties_go_to_even_subpixels() {
-    let camera = Camera::new(rig(1.0, 0.0, 1.0), 640, 480, &WIDE);
+    let camera = Camera::new(&rig(1.0, 0.0, 1.0), 640, 480, &WIDE);
     for (halves, expected) in [(1, 0), (3, 2), (5, 2), (-1, 0), (-3, -2), (7, 4), (2, 1)] {
         let snapped = camera.snap([f64::from(halves) / 512.0, f64::from(-halves) / 512.0, 0.0]);
         assert_eq!(snapped.x, [320 * 256 + expected; 2], "{halves}");
         assert_eq!(snapped.y, [240 * 256 + expected; 2], "{halves}");
     }
-    let coarse = Camera::new(rig(1.0, 0.0, 1.0), 640, 480, &NARROW);
+    let coarse = Camera::new(&rig(1.0, 0.0, 1.0), 640, 480, &NARROW);
     assert_eq!(coarse.snap([1.0 / 32.0, 0.0, 0.0]).x, [320 * 16; 2]);
     assert_eq!(coarse.snap([3.0 / 32.0, 0.0, 0.0]).x, [320 * 16 + 2; 2]);
 }
@@ -118,7 +118,7 @@ fn ties_go_to_even_subpixels() {
 fn depth_is_affine_in_the_inverse_distance() {
     for (near, far) in [(None, None), (Some(0.125), Some(77.0)), (Some(0.001), Some(1e8))] {
         let rig = Rig { near, far, ..rig(10.0, 1.0, 16.0) };
-        let camera = Camera::new(rig, 640, 480, &WIDE);
+        let camera = Camera::new(&rig, 640, 480, &WIDE);
         let depth = |w: f64| camera.depth([5.0, -3.0, w - 16.0]);
         assert_eq!(depth(rig.near()), 0);
         assert_eq!(depth(rig.far()), DEPTH_MAX);
@@ -210,7 +210,7 @@ fn cutting_at_the_guard_band_changes_nothing_in_view() {
         let positions = vec![corner(0), corner(1), corner(2)];
         let scene = triangles(positions.clone(), rig(1.0, 64.0, 640.0));
         let cut = geometry(&scene);
-        let camera = Camera::new(scene.rig, 640, 480, &WIDE);
+        let camera = Camera::new(&scene.rig, 640, 480, &WIDE);
         let whole = Polygon {
             vertices: positions
                 .iter()
@@ -271,7 +271,7 @@ fn rows_above_and_below_are_cut_for_both_eyes_alike() {
 fn a_tilted_head_has_rows_of_its_own() {
     let positions = vec![[-50.0, -20.0, 100.0], [60.0, -30.0, -100.0], [10.0, 100.0, 300.0]];
     let tilted = Rig { head_tilt: 10.0, ..rig(1.0, 64.0, 640.0) };
-    let seen = geometry(&triangles(positions.clone(), tilted));
+    let seen = geometry(&triangles(positions.clone(), tilted.clone()));
     assert!(seen.polygons[0].vertices.iter().all(|v| v.y[0] != v.y[1]));
     let far = positions.iter().map(|p| [p[0], p[1] * 100.0, p[2]]).collect();
     let cut = geometry(&triangles(far, tilted));

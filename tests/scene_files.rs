@@ -306,6 +306,7 @@ fn rig_files_move_the_eyes_and_the_mesh() {
         near: Some(2.0),
         far: None,
         head_tilt: 5.0,
+        ..Rig::default()
     };
     assert_eq!(scene.rig, expected);
     let lighting = scene.lighting.expect("it is lit");

@@ -1,9 +1,8 @@
 //! Whole scenes: the hybrid against direct rendering, with the cost rule off and on.
 
 use wheatstone_golden::config::Config;
-use wheatstone_golden::formats::{Eye, Formats, Rgba};
-use wheatstone_golden::frame::Frame;
-use wheatstone_golden::picture::{colour_picture, psnr};
+use wheatstone_golden::formats::{Eye, Formats};
+use wheatstone_golden::picture::{frame_picture, psnr};
 use wheatstone_golden::record::Tape;
 use wheatstone_golden::scene::{self, builtin, Geometry};
 use wheatstone_golden::setup::{Options, Sampling, Specular};
@@ -18,21 +17,7 @@ fn geometry(name: &str, config: &Config) -> Geometry {
 }
 
 fn job(config: Config, options: Options, geometry: &Geometry) -> Job<'_> {
-    Job {
-        config,
-        options,
-        width: geometry.width,
-        height: geometry.height,
-        background: geometry.background.rgb(),
-        polygons: &geometry.polygons,
-        textures: &geometry.textures,
-        lookup: Lookup::Bilinear,
-    }
-}
-
-fn picture(frame: &Frame) -> image::RgbImage {
-    let colours: Vec<Rgba> = frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
-    colour_picture(frame.width, frame.height, &colours)
+    Job::of(geometry, config, options, Lookup::Bilinear)
 }
 
 fn quality(name: &str, config: Config, options: Options) -> [f64; 2] {
@@ -42,7 +27,7 @@ fn quality(name: &str, config: Config, options: Options) -> [f64; 2] {
     let direct = job.direct();
     Eye::BOTH.map(|eye| {
         let (ours, theirs) = (&frames.eyes[eye as usize], &direct[eye as usize]);
-        psnr(&picture(ours), &picture(theirs)).expect("pictures of one size")
+        psnr(&frame_picture(ours), &frame_picture(theirs)).expect("pictures of one size")
     })
 }
 

@@ -3,9 +3,59 @@
 use crate::formats::{Area, Coordinate, Depth, Eye, Formats, Quantity, Rgba, DEPTH_MAX};
 use crate::pipeline::blend::{factor, mix};
 use crate::pipeline::{Output, Pixel, Request, Response};
+use crate::setup::{Placement, Planner};
 
 /// Id of a place where nothing was drawn.
 pub const NO_ID: u32 = u32::MAX;
+
+/// The columns of each view that are drawn; pixels beside them are dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scissor {
+    /// First column of the left and of the right view.
+    pub first: [u32; 2],
+    /// Column behind the last one.
+    pub end: [u32; 2],
+}
+
+impl Default for Scissor {
+    /// All columns.
+    fn default() -> Scissor {
+        Scissor { first: [0; 2], end: [u32::MAX; 2] }
+    }
+}
+
+impl Scissor {
+    /// Whether a column of an eye's view is drawn.
+    #[inline]
+    pub fn contains(&self, eye: Eye, column: i64) -> bool {
+        let [first, end] = [self.first, self.end].map(|n| i64::from(n[eye as usize]));
+        (first..end).contains(&column)
+    }
+}
+
+/// The scissor of one eye's view on its display.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Window {
+    first: i64,
+    end: i64,
+    /// The view's columns are rows of the display.
+    swap: bool,
+}
+
+impl Window {
+    fn new(scissor: &Scissor, eye: Eye, placement: &Placement) -> Window {
+        let [first, end] = [scissor.first, scissor.end].map(|n| i64::from(n[eye as usize]));
+        // A row of the view says where its columns go.
+        let column = |x: i64| placement.place(x, 0)[usize::from(placement.swap)];
+        let [a, b] = [column(first), column(end - 1)];
+        Window { first: a.min(b), end: a.max(b) + 1, swap: placement.swap }
+    }
+
+    #[inline]
+    fn contains(&self, x: i64, y: i64) -> bool {
+        (self.first..self.end).contains(if self.swap { &y } else { &x })
+    }
+}
 
 /// Frame buffer of one eye: colour, depth and the id of the polygon drawn last.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,6 +90,16 @@ impl Frame {
         let inside =
             (0..i64::from(self.width)).contains(&x) && (0..i64::from(self.height)).contains(&y);
         inside.then(|| y as usize * self.width as usize + x as usize)
+    }
+
+    /// Clears the columns that are `beside`.
+    pub fn clear_columns(&mut self, beside: impl Fn(i64) -> bool, background: [u8; 3]) {
+        for index in 0..self.id.len() {
+            if beside((index % self.width as usize) as i64) {
+                self.colour[index] = background;
+                (self.depth[index], self.id[index]) = (DEPTH_MAX, NO_ID);
+            }
+        }
     }
 
     /// Draws an unblended fragment: depth test, blending, depth write.
@@ -88,22 +148,40 @@ pub struct Frames {
     pub reads: u64,
     /// Depth of secondary pixels was tested by the system.
     tested: bool,
+    windows: [Window; 2],
     formats: Formats,
 }
 
 impl Frames {
-    /// Cleared frames for displays of this size. `tested`: blended pixels have passed the depth
-    /// test already.
-    pub fn new(size: [u32; 2], background: [u8; 3], tested: bool, formats: Formats) -> Frames {
-        let frame = Frame::new(size[0], size[1], background);
-        let eyes = [frame.clone(), frame];
-        Frames { eyes, id: NO_ID, written: [0; 2], reads: 0, tested, formats }
+    /// Cleared frames for the displays that a planner arranges the views on. `tested`: blended pixels
+    /// have passed the depth test already.
+    pub fn new(planner: &Planner, background: [u8; 3], tested: bool, scissor: &Scissor) -> Frames {
+        let [width, height] = Placement::display_size(planner);
+        let frame = Frame::new(width, height, background);
+        let window = |eye| Window::new(scissor, eye, &Placement::new(planner, eye));
+        Frames {
+            eyes: [frame.clone(), frame],
+            id: NO_ID,
+            written: [0; 2],
+            reads: 0,
+            tested,
+            windows: Eye::BOTH.map(window),
+            formats: planner.formats,
+        }
     }
 
-    /// What a read returns; 0 outside the display.
+    /// Position of a pixel in an eye's frame; none outside the frame or the scissor.
+    #[inline]
+    fn index(&self, eye: Eye, x: Coordinate, y: Coordinate) -> Option<usize> {
+        let [x, y] = [x, y].map(|n| n.raw());
+        let inside = self.windows[eye as usize].contains(x, y);
+        inside.then(|| self.eyes[eye as usize].index(x, y)).flatten()
+    }
+
+    /// What a read returns; 0 outside the display and the scissor.
     pub fn fetch(&self, eye: Eye, x: Coordinate, y: Coordinate) -> Response {
         let frame = &self.eyes[eye as usize];
-        match frame.index(x.raw(), y.raw()) {
+        match self.index(eye, x, y) {
             Some(index) => Response {
                 rgb: frame.colour[index],
                 depth: Depth::new(frame.depth[index].into(), &self.formats),
@@ -116,8 +194,8 @@ impl Frames {
     #[inline]
     pub fn apply(&mut self, pixel: &Pixel) {
         self.written[pixel.eye as usize] += 1;
+        let Some(index) = self.index(pixel.eye, pixel.x, pixel.y) else { return };
         let frame = &mut self.eyes[pixel.eye as usize];
-        let Some(index) = frame.index(pixel.x.raw(), pixel.y.raw()) else { return };
         let depth = pixel.depth.raw() as u32;
         if !pixel.blended {
             let (rgba, area, write, id) = (pixel.rgba, pixel.area, pixel.write, self.id);

@@ -1,6 +1,7 @@
 //! Pictures: stereo composites, comparisons, and files that are either whole or not there.
 
 use crate::formats::Rgba;
+use crate::frame::Frame;
 pub use image::{Rgb, RgbImage};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -226,6 +227,12 @@ pub fn colour_picture(width: u32, height: u32, colours: &[Rgba]) -> RgbImage {
         *pixel = Rgb(colour.rgb());
     }
     picture
+}
+
+/// The colours of a frame.
+pub fn frame_picture(frame: &Frame) -> RgbImage {
+    let colours: Vec<Rgba> = frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
+    colour_picture(frame.width, frame.height, &colours)
 }
 
 /// Absolute differences of two pictures of one size, each multiplied by `gain`.

@@ -3,13 +3,14 @@
 use crate::config::Config;
 use crate::direct::Direct;
 use crate::formats::{Eye, Formats};
-use crate::frame::{Frame, Frames};
+use crate::frame::{Frame, Frames, Scissor};
 use crate::pipeline::hybrid::Hybrid;
 use crate::pipeline::minimal::Minimal;
 use crate::pipeline::observer::{Blind, Observer};
 use crate::pipeline::{Edges, Output, PrimaryBeat, Setup};
 use crate::primary::{Counts, Primary, Sink};
-use crate::setup::{Options, Outline, Placement, Planner, Polygon};
+use crate::scene::Geometry;
+use crate::setup::{Options, Outline, Planner, Polygon};
 use crate::texture::{Lookup, Texture};
 use std::borrow::Cow;
 
@@ -37,12 +38,31 @@ pub struct Job<'a> {
     pub height: u32,
     /// Colour of an empty frame.
     pub background: [u8; 3],
+    /// Columns of each view that are drawn.
+    pub scissor: Scissor,
     /// What to draw, in order.
     pub polygons: &'a [Polygon],
     /// Textures of the polygons.
     pub textures: &'a [Texture],
     /// How textures are sampled.
     pub lookup: Lookup,
+}
+
+impl<'a> Job<'a> {
+    /// The job that draws a scene's polygons.
+    pub fn of(geometry: &'a Geometry, config: Config, options: Options, lookup: Lookup) -> Job<'a> {
+        Job {
+            config,
+            options,
+            width: geometry.width,
+            height: geometry.height,
+            background: geometry.background.rgb(),
+            scissor: geometry.scissor,
+            polygons: &geometry.polygons,
+            textures: &geometry.textures,
+            lookup,
+        }
+    }
 }
 
 impl Job<'_> {
@@ -55,7 +75,7 @@ impl Job<'_> {
     pub fn frames(&self, minimal: bool) -> Frames {
         let planner = self.planner(minimal);
         let tested = !minimal && !self.config.external_depth;
-        Frames::new(Placement::display_size(&planner), self.background, tested, planner.formats)
+        Frames::new(&planner, self.background, tested, &self.scissor)
     }
 
     /// Draws both views directly, in view coordinates.
@@ -68,6 +88,10 @@ impl Job<'_> {
         Eye::BOTH.map(|eye| {
             let mut frame = Frame::new(self.width, self.height, self.background);
             pieces(self.polygons).for_each(|polygon| direct.draw(&polygon, eye, &mut frame));
+            if self.scissor != Scissor::default() {
+                // Pixels do not depend on each other: clearing these is dropping all that came there.
+                frame.clear_columns(|x| !self.scissor.contains(eye, x), self.background);
+            }
             frame
         })
     }

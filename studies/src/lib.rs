@@ -3,6 +3,7 @@
 //! An experiment is a function that returns a [`Report`]: tables of what is printed, what is correct
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
+pub mod nasa;
 pub mod plot;
 pub mod report;
 pub mod timing;
@@ -26,7 +27,12 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order they are run.
-pub const EXPERIMENTS: &[Experiment] = &[];
+pub const EXPERIMENTS: &[Experiment] = &[Experiment {
+    name: "nasa",
+    description:
+        "NASA 1992: table I, projection matrices, distance maps, the scene in every projection",
+    run: nasa::run,
+}];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]

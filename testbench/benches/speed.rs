@@ -109,16 +109,7 @@ fn compare_golden(library: &Library) -> Result<f64, Failure> {
     let config = Config::DEFAULT;
     let geometry = scene::open("teapot", None, None)?
         .geometry(&Formats::new(&config), &scene::Options::default())?;
-    let job = Scene {
-        config,
-        options: Options::new(&config),
-        width: geometry.width,
-        height: geometry.height,
-        background: geometry.background.rgb(),
-        polygons: &geometry.polygons,
-        textures: &geometry.textures,
-        lookup: Lookup::Nearest,
-    };
+    let job = Scene::of(&geometry, config, Options::new(&config), Lookup::Nearest);
     let mut kept = Kept::default();
     job.run(false, &mut kept);
     let beats = kept.beats.len() as f64;

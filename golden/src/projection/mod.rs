@@ -1,1 +1,225 @@
-//! Projections: where the two eyes see a point on the screen.
+//! Projections: ways to map a scene to the two views of a screen.
+//!
+//! All of them move the scene sideways, project it from one centre and move the picture back, by
+//! amounts that follow from a [`DistanceMap`] and the [`Viewer`]:
+//!
+//! x = SD·(x' ± POT)/d' ± VPT, y = SD·y'/d', + for the left eye, d' = z + d.
+//!
+//! The page `docs/projections.md` compares them and proves that disparity on a plane is affine in screen
+//! coordinates in all of them, which is what the pipeline lives on. Distances in the scene are from
+//! the plane of the eyes, z = −d. Sources: S. J. Adelson et al., "Simultaneous Generation of
+//! Stereoscopic Views", 1991 (two centres, shear, translation); V. J. Duvanenko and W. E. Robbins,
+//! "Algorithms for Stereoscopic Imaging", 1993 (translation, the display's units); NASA Technical Paper
+//! of 1992 on depth-viewing volumes, here "NASA 1992" (asymptotic, piecewise, clipping).
+
+mod field_of_view;
+mod map;
+mod matrix;
+mod parameters;
+
+pub use field_of_view::{Clipping, FieldOfView, Screen};
+pub use map::{Device, DistanceMap, Viewer};
+pub use matrix::{multiply, transform, Matrix, ProjectionMatrix};
+pub use parameters::{Asymptotic, Partition, Piecewise};
+
+use crate::scene::{Rig, RigError};
+use serde::Deserialize;
+
+/// Names of the projections.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// [`Projection::TwoCentres`].
+    #[default]
+    TwoCentres,
+    /// [`Projection::Shear`].
+    Shear,
+    /// [`Projection::Translate`].
+    Translate,
+    /// [`Projection::Asymptotic`].
+    Asymptotic,
+    /// [`Projection::Piecewise`].
+    Piecewise,
+    /// [`Projection::Symmetric`].
+    Symmetric,
+}
+
+impl Kind {
+    /// All of them, the usual one first.
+    pub const ALL: [Kind; 6] = [
+        Kind::TwoCentres,
+        Kind::Shear,
+        Kind::Translate,
+        Kind::Asymptotic,
+        Kind::Piecewise,
+        Kind::Symmetric,
+    ];
+
+    /// Name on the command line and in rig files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::TwoCentres => "two-centres",
+            Kind::Shear => "shear",
+            Kind::Translate => "translate",
+            Kind::Asymptotic => "asymptotic",
+            Kind::Piecewise => "piecewise",
+            Kind::Symmetric => "symmetric",
+        }
+    }
+
+    /// What it does, in one line.
+    pub fn description(self) -> &'static str {
+        match self {
+            Kind::TwoCentres => "each eye a centre of projection: the screen is a window",
+            Kind::Shear => "the scene sheared for each eye and projected from one centre",
+            Kind::Translate => {
+                "the scene moved for each eye, projected from one centre, moved back"
+            }
+            Kind::Asymptotic => "what is infinitely far is seen at a distance of choice",
+            Kind::Piecewise => {
+                "ranges of distances, each with its own range of perceived distances"
+            }
+            Kind::Symmetric => "two centres, each view cut symmetrically about its eye",
+        }
+    }
+
+    /// The kind of that name.
+    pub fn named(name: &str) -> Option<Kind> {
+        Kind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+}
+
+/// A projection with its parameters; a rig has the rest.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Projection {
+    /// Each eye is a centre of projection (Adelson 1991): the screen is a window into the scene.
+    #[default]
+    TwoCentres,
+    /// The data are sheared by z·e/(2d) and projected from the point between the eyes (Adelson 1991).
+    Shear,
+    /// The data are moved by e/2, projected from the point between the eyes and moved back (Adelson
+    /// 1991; Duvanenko and Robbins 1993).
+    Translate,
+    /// Infinity is perceived at a distance of choice (NASA 1992, appendix A).
+    Asymptotic(Asymptotic),
+    /// Ranges of distances, each projected on its own (NASA 1992, appendix B).
+    Piecewise(Piecewise),
+    /// As two centres, but each view is cut off symmetrically about its eye (NASA 1992, figure 5),
+    /// which leaves a strip as wide as the eyes are apart blank: at the right of the left view.
+    Symmetric,
+}
+
+/// A range of distances in the scene that is projected in one way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Nearest scene distance.
+    pub near: f64,
+    /// Farthest scene distance.
+    pub far: f64,
+    /// Where it is perceived.
+    pub map: DistanceMap,
+}
+
+impl Projection {
+    /// Its kind.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Projection::TwoCentres => Kind::TwoCentres,
+            Projection::Shear => Kind::Shear,
+            Projection::Translate => Kind::Translate,
+            Projection::Asymptotic(_) => Kind::Asymptotic,
+            Projection::Piecewise(_) => Kind::Piecewise,
+            Projection::Symmetric => Kind::Symmetric,
+        }
+    }
+
+    /// The viewer and screen of a rig.
+    pub fn viewer(&self, rig: &Rig) -> Viewer {
+        let (eye_distance, screen_distance) = match self {
+            Projection::Asymptotic(a) => (a.eye_distance, a.screen_distance),
+            Projection::Piecewise(p) => (p.eye_distance, p.screen_distance),
+            _ => (None, None),
+        };
+        let d = rig.viewing_distance;
+        let screen_distance = screen_distance.unwrap_or(d);
+        let in_proportion = || rig.eye_separation * (screen_distance / d);
+        Viewer { eye_distance: eye_distance.unwrap_or_else(in_proportion), screen_distance }
+    }
+
+    /// The nearest distance that is drawn, where the projection says so.
+    pub fn near(&self, rig: &Rig) -> Option<f64> {
+        match self {
+            Projection::Asymptotic(a) => a.min_distance.map(|min| a.map(rig).scene(min)),
+            Projection::Piecewise(p) => p.partitions(rig).first().map(|p| p.near),
+            _ => None,
+        }
+    }
+
+    /// The farthest distance that is drawn, where the projection says so.
+    pub fn far(&self, rig: &Rig) -> Option<f64> {
+        match self {
+            Projection::Piecewise(p) => p.partitions(rig).last().map(|p| p.far),
+            _ => None,
+        }
+    }
+
+    /// The ranges that are projected, the nearest first, cut to the rig's near and far planes. The
+    /// rig is one that passed [`Rig::check`].
+    pub fn ranges(&self, rig: &Rig) -> Vec<Range> {
+        let (near, far) = (rig.near(), rig.far());
+        match self {
+            Projection::Piecewise(p) => {
+                let partitions = p.partitions(rig).into_iter().map(|p| Range {
+                    near: p.near.max(near),
+                    far: p.far.min(far),
+                    map: p.map(),
+                });
+                partitions.filter(|range| range.near < range.far).collect()
+            }
+            Projection::Asymptotic(a) => vec![Range { near, far, map: a.map(rig) }],
+            _ => vec![Range { near, far, map: DistanceMap::IDENTITY }],
+        }
+    }
+
+    /// Refuses parameters that make no sense with a rig whose own values do.
+    pub fn check(&self, rig: &Rig) -> Result<(), RigError> {
+        let name = self.kind().name();
+        let separated = |field: &str, e: f64| match e > 0.0 {
+            true => Ok(()),
+            false => Err(RigError::new(field, format!("more than 0 with projection {name}"), e)),
+        };
+        match self {
+            Projection::TwoCentres | Projection::Shear | Projection::Translate => Ok(()),
+            Projection::Symmetric => {
+                separated("eye_separation", rig.eye_separation)?;
+                if rig.head_tilt != 0.0 {
+                    let expected = "0 with projection symmetric, which cuts columns off";
+                    return Err(RigError::new("head_tilt", expected, rig.head_tilt));
+                }
+                Ok(())
+            }
+            Projection::Asymptotic(a) => {
+                a.check(rig)?;
+                separated("eye_separation", self.viewer(rig).eye_distance)
+            }
+            Projection::Piecewise(p) => {
+                p.check(rig)?;
+                separated("eye_separation", self.viewer(rig).eye_distance)
+            }
+        }
+    }
+}
+
+impl From<Kind> for Projection {
+    /// A projection whose parameters follow from the rig.
+    fn from(kind: Kind) -> Projection {
+        match kind {
+            Kind::TwoCentres => Projection::TwoCentres,
+            Kind::Shear => Projection::Shear,
+            Kind::Translate => Projection::Translate,
+            Kind::Asymptotic => Projection::Asymptotic(Asymptotic::default()),
+            Kind::Piecewise => Projection::Piecewise(Piecewise::default()),
+            Kind::Symmetric => Projection::Symmetric,
+        }
+    }
+}

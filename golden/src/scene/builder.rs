@@ -1,23 +1,27 @@
 //! From meshes to polygons: lighting, clipping, culling, projection and snapping.
 //!
 //! 1. Corners are lit for each eye, from the side that is seen.
-//! 2. Polygons are cut at the near and far planes, in space. What is left and has a corner above
-//!    or below the guard band is cut there too, alike for both eyes.
+//! 2. Polygons are cut at the near and far planes, in space; with several partitions at those of each,
+//!    and what is left goes on in each by itself. What has a corner above or below the guard band is
+//!    cut there too, alike for both eyes.
 //! 3. A polygon that still leaves the guard band in either view is cut for each eye alone, and
 //!    goes on as one polygon an eye.
 //! 4. Corners are snapped. Culling looks at the snapped polygon of each eye.
 //! 5. Polygons that were cut go on as fans of triangles with the same id; so do polygons of more
 //!    than three corners that snapping made concave.
 
+use super::camera::{Camera, Lens, Snapped};
 use super::clip::{clip_all, Corner};
 use super::geometry::{Counts, Cull, Geometry, Options};
 use super::mesh::Mesh;
-use super::rig::{Camera, HalfSpace, Snapped};
+use super::rig::HalfSpace;
 use super::shading::Shading;
 use super::Scene;
 use crate::formats::{Eye, Formats, Rgba};
+use crate::frame::Scissor;
 use crate::setup::{Eyes, Polygon, Vertex};
 use crate::texture::Texture;
+use std::rc::Rc;
 
 /// What the polygons of a mesh have in common.
 #[derive(Clone, Copy)]
@@ -26,13 +30,47 @@ struct Surface {
     texture: Option<u32>,
 }
 
+/// A lens of the camera with the planes that polygons are cut by.
+struct Partition {
+    lens: Lens,
+    depth_planes: [HalfSpace; 2],
+    window_planes: [[HalfSpace; 4]; 2],
+}
+
+impl Partition {
+    fn new(lens: &Lens) -> Partition {
+        Partition {
+            lens: *lens,
+            depth_planes: lens.depth_planes(),
+            window_planes: Eye::BOTH.map(|eye| lens.window_planes(eye)),
+        }
+    }
+
+    /// Whether all of a polygon lies before or behind it.
+    fn misses(&self, corners: &[Corner]) -> bool {
+        self.depth_planes.iter().any(|plane| corners.iter().all(|c| plane.at(c.position) < 0.0))
+    }
+
+    /// What lies in the half spaces. Rounding puts no corner before the near plane, where the
+    /// projection would turn over.
+    fn clip(&self, corners: Vec<Corner>, spaces: &[HalfSpace]) -> Vec<Corner> {
+        let [near, far] = self.lens.depth_range();
+        let mut kept = clip_all(corners, spaces);
+        kept.iter_mut().for_each(|c| c.position[2] = c.position[2].clamp(near, far));
+        kept
+    }
+
+    fn snap(&self, corners: &[Corner]) -> Vec<Snapped> {
+        corners.iter().map(|c| self.lens.snap(c.position)).collect()
+    }
+}
+
 /// Collects the polygons of a scene.
 pub(super) struct Builder<'a> {
     scene: &'a Scene,
     options: &'a Options,
     camera: Camera,
-    depth_planes: [HalfSpace; 2],
-    window_planes: [[HalfSpace; 4]; 2],
+    partitions: Rc<[Partition]>,
     /// Smallest and largest coordinate in the guard band, in subpixels, across and down.
     band: [[i64; 2]; 2],
     /// Size of a view in subpixels.
@@ -45,16 +83,15 @@ pub(super) struct Builder<'a> {
 impl<'a> Builder<'a> {
     /// No polygons yet.
     pub fn new(scene: &'a Scene, formats: &Formats, options: &'a Options) -> Builder<'a> {
-        let camera = Camera::new(scene.rig, scene.width, scene.height, formats);
+        let camera = Camera::new(&scene.rig, scene.width, scene.height, formats);
         let one = formats.one_pixel();
         let size = [scene.width, scene.height].map(|n| i64::from(n) * one);
         let guard = i64::from(formats.guard_band) * one;
         Builder {
             scene,
             options,
+            partitions: camera.lenses().iter().map(Partition::new).collect(),
             camera,
-            depth_planes: camera.depth_planes(),
-            window_planes: Eye::BOTH.map(|eye| camera.window_planes(eye)),
             band: size.map(|n| [-guard, n + guard]),
             size,
             opaque: Vec::new(),
@@ -64,7 +101,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The polygons in order.
-    pub fn finish(mut self) -> Geometry {
+    pub fn finish(mut self, scissor: Scissor) -> Geometry {
         // 60 / n is whole for every number of corners.
         let far = |p: &Polygon| {
             let sum: u64 = p.vertices.iter().map(|v| u64::from(v.depth)).sum();
@@ -80,6 +117,7 @@ impl<'a> Builder<'a> {
             background: Rgba([r, g, b, 255]),
             polygons: self.opaque,
             textures: self.scene.textures.clone(),
+            scissor,
             counts: self.counts,
         }
     }
@@ -89,28 +127,54 @@ impl<'a> Builder<'a> {
         let scene = self.scene;
         let material = &scene.materials[mesh.material as usize];
         let texture = material.texture.filter(|_| !mesh.texture_coordinates.is_empty());
-        let mut shading = Shading::new(scene, mesh);
+        let partitions = Rc::clone(&self.partitions);
+        let shading =
+            |p: &Partition| Shading::new(scene, mesh, Eye::BOTH.map(|eye| p.lens.centre(eye)));
+        let mut shadings: Vec<Shading> = partitions.iter().map(shading).collect();
         self.counts.triangles += mesh.triangles.len();
         self.counts.faces += mesh.faces.len();
         for (n, triangle) in mesh.triangles.iter().enumerate() {
-            let colours = shading.triangle(n);
             let texels = self.texels(mesh, triangle, texture);
             let corners = [0, 1, 2].map(|k| Corner {
                 position: mesh.positions[triangle[k] as usize],
-                colour: colours[k],
                 texel: texels[k],
+                ..Corner::default()
             });
             let id = first_id + mesh.triangle_ids.get(n).copied().unwrap_or(n as u32);
-            self.polygon(corners.to_vec(), Surface { id, texture });
+            self.partitioned(&corners, Surface { id, texture }, |partition, corners| {
+                let colours = shadings[partition].triangle(n);
+                corners.iter_mut().zip(colours).for_each(|(c, colour)| c.colour = colour);
+            });
         }
         let first_face = first_id + mesh.triangle_id_count() as u32;
         for (n, face) in mesh.faces.iter().enumerate() {
-            let colour = shading.face(n);
             let corner =
-                |&k: &u32| Corner { position: mesh.positions[k as usize], colour, texel: [0.0; 2] };
-            let id = first_face + n as u32;
-            self.polygon(face.iter().map(corner).collect(), Surface { id, texture: None });
+                |&k: &u32| Corner { position: mesh.positions[k as usize], ..Corner::default() };
+            let corners: Vec<Corner> = face.iter().map(corner).collect();
+            let surface = Surface { id: first_face + n as u32, texture: None };
+            self.partitioned(&corners, surface, |partition, corners| {
+                let colour = shadings[partition].face(n);
+                corners.iter_mut().for_each(|c| c.colour = colour);
+            });
         }
+    }
+
+    /// Draws a polygon in all partitions that it reaches, coloured as it is seen there.
+    fn partitioned(
+        &mut self,
+        corners: &[Corner],
+        surface: Surface,
+        mut colour: impl FnMut(usize, &mut [Corner]),
+    ) {
+        let partitions = Rc::clone(&self.partitions);
+        let mut outside = true;
+        for (n, partition) in partitions.iter().enumerate().filter(|(_, p)| !p.misses(corners)) {
+            outside = false;
+            let mut corners = corners.to_vec();
+            colour(n, &mut corners);
+            self.polygon(partition, corners, surface);
+        }
+        self.counts.outside += usize::from(outside);
     }
 
     /// Texture coordinates in texels, moved by whole repeats to near zero.
@@ -125,18 +189,19 @@ impl<'a> Builder<'a> {
         corners.map(|c| [0, 1].map(|k| (c[k] - first[k]) * size[k]))
     }
 
-    fn polygon(&mut self, mut corners: Vec<Corner>, surface: Surface) {
-        let inside = |c: &Corner| self.depth_planes.iter().all(|p| p.at(c.position) >= 0.0);
+    fn polygon(&mut self, partition: &Partition, mut corners: Vec<Corner>, surface: Surface) {
+        let inside =
+            |c: &Corner| partition.depth_planes.iter().all(|plane| plane.at(c.position) >= 0.0);
         let mut cut = false;
         if !corners.iter().all(inside) {
             cut = true;
-            corners = self.clip(corners, &self.depth_planes);
+            corners = partition.clip(corners, &partition.depth_planes);
         }
-        let mut points = self.snap(&corners);
+        let mut points = partition.snap(&corners);
         if self.camera.is_level() && !points.iter().all(|p| self.in_band(p, Eye::Left, 1)) {
             cut = true;
-            corners = self.clip(corners, &self.window_planes[0][2..]);
-            points = self.snap(&corners);
+            corners = partition.clip(corners, &partition.window_planes[0][2..]);
+            points = partition.snap(&corners);
         }
         if corners.is_empty() {
             self.counts.outside += 1;
@@ -149,21 +214,8 @@ impl<'a> Builder<'a> {
         if points.iter().all(fits) {
             self.binocular(&corners, &points, cut, surface);
         } else {
-            self.guard_band(&corners, surface);
+            self.guard_band(partition, &corners, surface);
         }
-    }
-
-    /// What lies in the half spaces. Rounding puts no corner before the near plane, where the
-    /// projection would turn over.
-    fn clip(&self, corners: Vec<Corner>, spaces: &[HalfSpace]) -> Vec<Corner> {
-        let [near, far] = self.camera.depth_range();
-        let mut kept = clip_all(corners, spaces);
-        kept.iter_mut().for_each(|c| c.position[2] = c.position[2].clamp(near, far));
-        kept
-    }
-
-    fn snap(&self, corners: &[Corner]) -> Vec<Snapped> {
-        corners.iter().map(|c| self.camera.snap(c.position)).collect()
     }
 
     fn in_band(&self, point: &Snapped, eye: Eye, axis: usize) -> bool {
@@ -192,12 +244,13 @@ impl<'a> Builder<'a> {
     }
 
     /// A polygon that leaves the guard band: cut and drawn for each eye alone.
-    fn guard_band(&mut self, corners: &[Corner], surface: Surface) {
+    fn guard_band(&mut self, partition: &Partition, corners: &[Corner], surface: Surface) {
         self.counts.guard_band += 1;
         let mut culled = 0;
         for eye in Eye::BOTH {
-            let corners = self.clip(corners.to_vec(), &self.window_planes[eye as usize]);
-            let mut points = self.snap(&corners);
+            let planes = &partition.window_planes[eye as usize];
+            let corners = partition.clip(corners.to_vec(), planes);
+            let mut points = partition.snap(&corners);
             for point in &mut points {
                 // Rounding may leave a corner a subpixel outside. The other eye is not concerned.
                 let [x, y] = [(point.x, 0), (point.y, 1)]

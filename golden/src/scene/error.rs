@@ -65,12 +65,19 @@ fn printable(text: &str) -> String {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{field}: expected {expected}, found {found}")]
 pub struct RigError {
-    /// Name of the value.
-    pub field: &'static str,
+    /// Name of the value, as in rig files: `piecewise.partitions[1].near`.
+    pub field: String,
     /// What is allowed.
     pub expected: String,
     /// What it is.
     pub found: f64,
+}
+
+impl RigError {
+    /// An error of a value.
+    pub fn new(field: impl Into<String>, expected: impl Into<String>, found: f64) -> RigError {
+        RigError { field: field.into(), expected: expected.into(), found }
+    }
 }
 
 /// Why there is no scene, or nothing to draw of it.

@@ -4,6 +4,7 @@ use super::builder::Builder;
 use super::error::{check_size, SceneError, ID_LIMIT};
 use super::Scene;
 use crate::formats::{Formats, Rgba};
+use crate::frame::Scissor;
 use crate::setup::Polygon;
 use crate::texture::Texture;
 use std::fmt;
@@ -44,7 +45,8 @@ pub struct Counts {
     pub faces: usize,
     /// Polygons made.
     pub polygons: usize,
-    /// Triangles and faces cut at the near or far plane, or above or below the guard band.
+    /// Triangles and faces cut at the near or far plane of a partition, or above or below the guard
+    /// band; one that crosses partitions counts in each.
     pub clipped: usize,
     /// Triangles and faces cut for each eye alone, because they leave the guard band.
     pub guard_band: usize,
@@ -93,6 +95,8 @@ pub struct Geometry {
     pub polygons: Vec<Polygon>,
     /// The textures that polygons refer to.
     pub textures: Vec<Texture>,
+    /// Columns of each view that are drawn.
+    pub scissor: Scissor,
     /// Where the triangles went.
     pub counts: Counts,
 }
@@ -104,13 +108,14 @@ impl Scene {
     pub fn geometry(&self, formats: &Formats, options: &Options) -> Result<Geometry, SceneError> {
         check_size(self.width, self.height, formats.max_size)?;
         self.check()?;
+        let scissor = self.rig.scissor(self.width)?;
         let mut builder = Builder::new(self, formats, options);
         let mut first_id = 0;
         for mesh in &self.meshes {
             builder.mesh(mesh, first_id);
             first_id += mesh.id_count() as u32;
         }
-        Ok(builder.finish())
+        Ok(builder.finish(scissor))
     }
 
     /// Refuses what could not be drawn.

@@ -160,7 +160,7 @@ pub fn scene(file: &Path, text: &str) -> Result<Scene, SceneError> {
         viewing_distance: content.viewing_distance,
         near: content.near,
         far: content.far,
-        head_tilt: 0.0,
+        ..Rig::default()
     };
     check(&content, &rig, file, text)?;
     let rgb = |colours: Vec<[Channel; 3]>| colours.into_iter().map(|c| c.map(|n| n.0)).collect();
@@ -213,7 +213,7 @@ fn check(content: &SceneFile, rig: &Rig, file: &Path, text: &str) -> Result<(), 
         }
     }
     if let Err(error) = rig.check() {
-        return wrong(error.field, None, error.expected, error.found.to_string());
+        return wrong(&error.field, None, error.expected, error.found.to_string());
     }
     let vertices = content.vertices.len();
     let far = |p: &[f64; 3]| !p.iter().all(|n| n.abs() <= COORDINATE_LIMIT);

@@ -18,14 +18,39 @@ impl<'a> Locator<'a> {
             self.enter_key(key)?;
         }
         if let Some(index) = index {
-            self.expect(b'[')?;
-            for _ in 0..index {
-                self.skip_value()?;
-                self.expect(b',')?;
+            self.enter_element(index)?;
+        }
+        Some(self.here())
+    }
+
+    /// Line, from 1, of the value at a path such as `partitions.list[2].near`.
+    pub fn line_of(mut self, path: &str) -> Option<usize> {
+        for step in path.split('.') {
+            let (key, index) = step
+                .split_once('[')
+                .map_or((step, None), |(key, rest)| (key, rest.trim_end_matches(']').parse().ok()));
+            self.enter_key(key)?;
+            if let Some(index) = index {
+                self.enter_element(index)?;
             }
         }
+        Some(self.here())
+    }
+
+    /// Line of what comes next.
+    fn here(&mut self) -> usize {
         self.space();
-        Some(1 + self.text[..self.at].iter().filter(|&&b| b == b'\n').count())
+        1 + self.text[..self.at].iter().filter(|&&b| b == b'\n').count()
+    }
+
+    /// Moves to an element of the array that begins here.
+    fn enter_element(&mut self, index: usize) -> Option<()> {
+        self.expect(b'[')?;
+        for _ in 0..index {
+            self.skip_value()?;
+            self.expect(b',')?;
+        }
+        Some(())
     }
 
     fn peek(&self) -> Option<u8> {
@@ -126,6 +151,9 @@ mod tests {
         assert_eq!(line(&["list"], Some(4)), None);
         assert_eq!(line(&["deep", "inner"], None), Some(9));
         assert_eq!(line(&["none"], None), None);
+        assert_eq!(Locator::new(TEXT).line_of("list[2].k[0]"), Some(6));
+        assert_eq!(Locator::new(TEXT).line_of("deep.inner"), Some(9));
+        assert_eq!(Locator::new(TEXT).line_of("list[2].none"), None);
         assert_eq!(line(&[r#"a\"b"#], Some(2)), Some(2));
         assert_eq!(Locator::new("").line(&["a"], None), None);
         assert_eq!(Locator::new(r#"{"a"#).line(&["a"], None), None);

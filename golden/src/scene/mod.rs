@@ -1,7 +1,8 @@
 //! Scenes: what is to be drawn, before any of it is snapped to integers.
 //!
 //! Coordinates are left-handed: x right, y up, z away from the viewer, in units of the scene's
-//! own. The screen is the plane z = 0, centred on the origin; the eyes are at (∓e/2, 0, −d).
+//! own. The screen is the plane z = 0, centred on the origin; the eyes are at (∓e/2, 0, −d) and see it
+//! through a [`crate::projection::Projection`].
 //! A scene comes from
 //!
 //! - code: the built-in scenes, [`builtin`];
@@ -13,6 +14,7 @@
 
 mod builder;
 pub mod builtin;
+mod camera;
 pub mod clip;
 mod error;
 mod geometry;
@@ -27,13 +29,16 @@ pub mod rig_file;
 mod shading;
 pub mod vector;
 
+pub use camera::{Camera, Lens, Snapped};
 pub use error::*;
 pub use geometry::{Counts, Cull, Geometry, Options};
 pub use light::{Environment, Light, Lighting, Material, Panel, Source};
 pub use mesh::{Colours, Mesh, REPEAT_LIMIT};
-pub use rig::{Camera, HalfSpace, Rig, Snapped};
+pub(crate) use rig::check_length;
+pub use rig::{HalfSpace, Rig};
 pub use rig_file::RigFile;
 
+use crate::projection::Kind;
 use crate::texture::Texture;
 use std::path::Path;
 
@@ -85,14 +90,24 @@ pub fn open(
     size: Option<[u32; 2]>,
     rig_file: Option<&Path>,
 ) -> Result<Scene, SceneError> {
-    let rig_file = rig_file.map(RigFile::load).transpose()?.unwrap_or_default();
-    let size = size.or(rig_file.size());
+    open_projected(name, size, rig_file, None)
+}
+
+/// As [`open`], with a projection that goes before that of the rig file.
+pub fn open_projected(
+    name: &str,
+    size: Option<[u32; 2]>,
+    rig_file: Option<&Path>,
+    projection: Option<Kind>,
+) -> Result<Scene, SceneError> {
     let path = Path::new(name);
+    let rig_file = rig_file.map_or_else(|| Ok(RigFile::empty(path)), RigFile::load)?;
+    let size = size.or(rig_file.size());
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     let mut scene = match extension.as_deref() {
         Some("obj") => {
             let mut empty = obj::empty_scene();
-            rig_file.apply(&mut empty, size)?;
+            rig_file.apply(&mut empty, size, projection)?;
             return obj::load(path, empty, &rig_file.placement());
         }
         Some("json") => json::load(path)?,
@@ -101,6 +116,6 @@ pub fn open(
             builtin::scene(name, width, height)?
         }
     };
-    rig_file.apply(&mut scene, size)?;
+    rig_file.apply(&mut scene, size, projection)?;
     Ok(scene)
 }

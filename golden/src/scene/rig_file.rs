@@ -9,8 +9,10 @@
 //! | `pixels_per_unit` | pixels to a unit of length on the screen | 20 at 640 × 480, in proportion otherwise |
 //! | `eye_separation` | distance between the eyes | 6.5 |
 //! | `viewing_distance` | distance from the eyes to the screen | 60 |
-//! | `near`, `far` | distances from the eyes to the planes that cut the scene | a hundredth and a hundred times the viewing distance |
+//! | `near`, `far` | distances from the eyes to the planes that cut the scene | a hundredth and a hundred times the viewing distance, or what the projection says |
 //! | `head_tilt` | degrees by which the right eye is turned up | 0 |
+//! | `projection` | name of a projection, see `wheatstone list`; `--projection` goes before it | `"two-centres"` |
+//! | `translate`, `asymptotic`, `piecewise` | objects with the parameters of these projections, see below; used where the projection is theirs | |
 //! | `background` | `[red, green, blue]`, 0 to 255 | `[40, 44, 52]` |
 //! | `placement` | object, see below; concerns `.obj` meshes only | |
 //! | `light` | object, see below; concerns scenes that are lit | |
@@ -22,16 +24,35 @@
 //! the smaller side of the screen, and it is moved by `offset` (`[x, y, z]` in units, z away from
 //! the viewer; default `[0, 0, 0]`). With `"fit": null` it is neither centred nor scaled.
 //!
+//! `translate`: the display from which `eye_separation` and `viewing_distance` follow, instead of
+//! being given: `eye_distance`, `viewing_distance` and `dot_pitch` in inches or any other unit, all
+//! three. A dot is a pixel.
+//!
+//! `asymptotic`: `screen_intercept` is the distance in the scene that is seen at the screen (default:
+//! the viewing distance), `screen_distance` the distance of the screen (viewing distance),
+//! `max_distance` where infinity is seen (twice `screen_distance`; `null` is infinity),
+//! `min_distance` the nearest distance at which anything is seen (none; puts the near plane),
+//! `eye_distance` that between the eyes (`eye_separation` in proportion to `screen_distance`).
+//! All but the first are in the unit to which `pixels_per_unit` refers, which need not be the scene's.
+//!
+//! `piecewise`: `screen_distance` and `eye_distance` as above; `partitions` is a list of objects, the
+//! nearest first, which may not overlap: what is at `near` to `far` in the scene is seen at
+//! `min_distance` to `max_distance`, all four, equal ones for a flat partition. What is in none is not
+//! drawn. Default, in viewing distances and screen distances: 0.5 to 1 at 0.75 to 1, 1 to 1.25 at
+//! 1, 1.25 to 2 at 1 to 1.5, 2 to `far` (100) at 1.5.
+//!
 //! `light`: `direction` towards the light (`[x, y, z]`, z away; default `[-2, 4, -3]`), its
 //! `colour` (default `[0.8, 0.8, 0.8]`; 1 is white) and the `ambient` light (default
 //! `[0.25, 0.25, 0.25]`). What is not given takes its default, and all other lights go.
 
-use super::error::{check_size, InputError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT};
+use super::error::{check_size, InputError, RigError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT};
 use super::json::{parse, without_mark, Channel};
 use super::light::{Light, Lighting, Source};
 use super::locate::Locator;
+use super::rig::{check_length, Rig};
 use super::vector::Vec3;
 use super::Scene;
+use crate::projection::{Asymptotic, Device, Kind, Piecewise, Projection};
 use serde::{Deserialize, Deserializer};
 use std::path::{Path, PathBuf};
 
@@ -47,6 +68,10 @@ pub struct RigFile {
     near: Option<f64>,
     far: Option<f64>,
     head_tilt: Option<f64>,
+    projection: Option<Kind>,
+    translate: Option<Device>,
+    asymptotic: Option<Asymptotic>,
+    piecewise: Option<Piecewise>,
     background: Option<[Channel; 3]>,
     #[serde(default)]
     placement: Placement,
@@ -105,9 +130,13 @@ impl RigFile {
         Ok(rig)
     }
 
+    /// A file that says nothing, for what has another `name` in messages.
+    pub fn empty(name: &Path) -> RigFile {
+        RigFile { file: name.to_owned(), ..RigFile::default() }
+    }
+
     fn wrong(&self, field: &str, expected: &str, found: String) -> InputError {
-        let path: Vec<&str> = field.split('.').collect();
-        let line = Locator::new(&self.text).line(&path, None);
+        let line = Locator::new(&self.text).line_of(field);
         InputError::new(&self.file, line, field, expected, found)
     }
 
@@ -163,8 +192,14 @@ impl RigFile {
         self.placement.clone()
     }
 
-    /// Changes a scene as the file says, and to views of `size` if there is one.
-    pub fn apply(&self, scene: &mut Scene, size: Option<[u32; 2]>) -> Result<(), SceneError> {
+    /// Changes a scene as the file says, and to views of `size` and a projection of `kind` if there
+    /// are any.
+    pub fn apply(
+        &self,
+        scene: &mut Scene,
+        size: Option<[u32; 2]>,
+        kind: Option<Kind>,
+    ) -> Result<(), SceneError> {
         if let Some([width, height]) = size {
             scene.resize(width, height)?;
         }
@@ -177,13 +212,39 @@ impl RigFile {
         replace(&mut rig.head_tilt, self.head_tilt);
         rig.near = self.near.or(rig.near);
         rig.far = self.far.or(rig.far);
-        rig.check().map_err(|e| self.wrong(e.field, &e.expected, e.found.to_string()))?;
+        self.project(rig, kind)
+            .and_then(|()| rig.check())
+            .and_then(|()| rig.scissor(scene.width))
+            .map_err(|e| self.wrong(&e.field, &e.expected, e.found.to_string()))?;
         if let Some(background) = self.background {
             scene.background = background.map(|c| c.0);
         }
         if let (Some(light), Some(lighting)) = (&self.light, &mut scene.lighting) {
             *lighting = light.lighting();
         }
+        Ok(())
+    }
+}
+
+impl RigFile {
+    /// Gives a rig the projection of `kind`, or else the file's, with the file's parameters.
+    fn project(&self, rig: &mut Rig, kind: Option<Kind>) -> Result<(), RigError> {
+        let Some(kind) = kind.or(self.projection) else { return Ok(()) };
+        rig.projection = match kind {
+            Kind::Asymptotic => Projection::Asymptotic(self.asymptotic.unwrap_or_default()),
+            Kind::Piecewise => Projection::Piecewise(self.piecewise.clone().unwrap_or_default()),
+            kind => Projection::from(kind),
+        };
+        let Some(device) = self.translate.filter(|_| kind == Kind::Translate) else {
+            return Ok(());
+        };
+        check_length("translate.eye_distance", device.eye_distance)?;
+        check_length("translate.viewing_distance", device.viewing_distance)?;
+        check_length("translate.dot_pitch", device.dot_pitch)?;
+        check_length("pixels_per_unit", rig.pixels_per_unit)?;
+        let view_units = |length| device.view_units(length, rig.pixels_per_unit);
+        (rig.eye_separation, rig.viewing_distance) =
+            (view_units(device.eye_distance), view_units(device.viewing_distance));
         Ok(())
     }
 }

@@ -4,7 +4,6 @@ use super::light::{Material, Point};
 use super::mesh::{face_normal, outside, Colours, Mesh};
 use super::vector::{add, dot, scale, sub, Vec3};
 use super::Scene;
-use crate::formats::Eye;
 
 /// Red, green, blue, alpha for each eye, 0 to 255.
 type Colour = [[f64; 4]; 2];
@@ -21,13 +20,13 @@ pub(super) struct Shading<'a> {
 }
 
 impl<'a> Shading<'a> {
-    /// Nothing is lit before it is asked for.
-    pub fn new(scene: &'a Scene, mesh: &'a Mesh) -> Shading<'a> {
+    /// The mesh as these eyes see it. Nothing is lit before it is asked for.
+    pub fn new(scene: &'a Scene, mesh: &'a Mesh, eyes: [Vec3; 2]) -> Shading<'a> {
         Shading {
             scene,
             mesh,
             material: &scene.materials[mesh.material as usize],
-            eyes: Eye::BOTH.map(|eye| scene.rig.eye(eye)),
+            eyes,
             middle: scene.rig.middle(),
             known: vec![[None; 2]; mesh.positions.len()],
         }

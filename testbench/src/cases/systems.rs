@@ -4,6 +4,7 @@ use super::Case;
 use fastrand::Rng;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
+use wheatstone_golden::frame::Scissor;
 use wheatstone_golden::interface::{Direction, Table};
 use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::pipeline::{Edges, Mode, Op, PrimaryBeat, Setup};
@@ -230,6 +231,7 @@ fn job<'a>(config: &Config, options: Options, size: [u32; 2], polygons: &'a [Pol
         width: size[0],
         height: size[1],
         background: [30, 60, 90],
+        scissor: Scissor::default(),
         polygons,
         textures: &[],
         lookup: Lookup::Nearest,

@@ -4,8 +4,8 @@ use super::*;
 use crate::regression::{self, Entry, Event, NamedScene, Plan, Waves};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Mutex;
-use wheatstone_golden::formats::{Eye, Rgba};
-use wheatstone_golden::picture::{colour_picture, write_file, write_png};
+use wheatstone_golden::formats::Eye;
+use wheatstone_golden::picture::{frame_picture, write_file, write_png};
 
 /// Scenes that the systems draw where none is named, and their sizes.
 const SCENES_AT_FULL_SIZE: [&str; 2] = ["teapot", "room"];
@@ -134,10 +134,8 @@ fn pictures(entry: &Entry, out: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for eye in Eye::BOTH {
         let frame = &scene.frames.eyes[eye as usize];
-        let colours: Vec<Rgba> =
-            frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
         let file = folder.join(format!("{}.png", eye.name()));
-        write_png(&file, &colour_picture(frame.width, frame.height, &colours))?;
+        write_png(&file, &frame_picture(frame))?;
         files.push(file);
     }
     Ok(files)

@@ -45,6 +45,10 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
     for scene in &builtin::SCENES {
         say!("  {:<20}{}", scene.name, scene.description);
     }
+    say!("\nProjections (--projection NAME, or in a rig file), the first is the usual one");
+    for kind in Kind::ALL {
+        say!("  {:<20}{}", kind.name(), kind.description());
+    }
     Ok(OK)
 }
 
@@ -60,6 +64,9 @@ fn list_json() -> serde_json::Value {
         "scenes": builtin::SCENES.iter().map(|s| serde_json::json!({
             "name": s.name, "description": s.description,
         })).collect::<Vec<_>>(),
+        "projections": Kind::ALL.map(|kind| serde_json::json!({
+            "name": kind.name(), "description": kind.description(),
+        })),
     })
 }
 

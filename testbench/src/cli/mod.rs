@@ -38,6 +38,7 @@ use std::process::ExitCode;
 use thiserror::Error;
 use wheatstone_golden::formats::Formats;
 use wheatstone_golden::picture::WriteError;
+use wheatstone_golden::projection::Kind;
 use wheatstone_golden::scene::{self, builtin, Cull, Geometry, SceneError};
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
@@ -82,7 +83,7 @@ enum Command {
     Waves(waves::WavesArgs),
     /// Draw a scene in stereo with the golden model
     Render(render::RenderArgs),
-    /// List targets, configurations, parameters and scenes
+    /// List targets, configurations, parameters, scenes and projections
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
     Doctor(info::DoctorArgs),
@@ -108,6 +109,10 @@ struct Common {
     /// Rig file: eyes, screen, placement and light (JSON)
     #[arg(long, value_name = "FILE")]
     rig: Option<PathBuf>,
+    /// How the scene is mapped to the screen (see `wheatstone list`) [default: what the rig file says,
+    /// or two-centres]
+    #[arg(long, value_name = "NAME", value_parser = parse_projection)]
+    projection: Option<Kind>,
     /// Which faces to leave out
     #[arg(long, value_enum, default_value = "none")]
     cull: CullChoice,
@@ -138,6 +143,11 @@ enum CullChoice {
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let parsed = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     parsed.ok_or_else(|| "expected WIDTHxHEIGHT in pixels, for example 640x480".into())
+}
+
+fn parse_projection(text: &str) -> Result<Kind, String> {
+    let names = Kind::ALL.map(Kind::name).join(", ");
+    Kind::named(text).ok_or_else(|| format!("there are: {names}"))
 }
 
 fn parse_target(text: &str) -> Result<Target, String> {
@@ -210,7 +220,7 @@ impl Common {
         size: Option<[u32; 2]>,
         settings: &Settings,
     ) -> Result<Geometry, Failure> {
-        let scene = scene::open(name, size, self.rig.as_deref())?;
+        let scene = scene::open_projected(name, size, self.rig.as_deref(), self.projection)?;
         let cull = match self.cull {
             CullChoice::None => Cull::None,
             CullChoice::Back => Cull::Back,
@@ -234,6 +244,9 @@ impl Common {
         }
         if let Some(rig) = &self.rig {
             words.push(format!("--rig {}", rig.display()));
+        }
+        if let Some(projection) = self.projection {
+            words.push(format!("--projection {}", projection.name()));
         }
         if self.cull == CullChoice::Back {
             words.push("--cull back".into());
@@ -266,16 +279,7 @@ impl Stimulus {
 
 /// The job that draws a scene's polygons.
 pub(crate) fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Options) -> Job<'a> {
-    Job {
-        config: settings.config,
-        options,
-        width: geometry.width,
-        height: geometry.height,
-        background: geometry.background.rgb(),
-        polygons: &geometry.polygons,
-        textures: &geometry.textures,
-        lookup: settings.lookup,
-    }
+    Job::of(geometry, settings.config, options, settings.lookup)
 }
 
 /// A builder of models that tells on the terminal what it does.
@@ -313,4 +317,23 @@ fn is_terminal() -> bool {
 /// Names of the built-in scenes.
 fn builtin_names() -> impl Iterator<Item = &'static str> {
     builtin::SCENES.iter().map(|scene| scene.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_is_repeated_with_its_projection() {
+        #[derive(Parser)]
+        struct Line {
+            #[command(flatten)]
+            common: Common,
+        }
+        let words = "x --scene room --rig eyes.json --projection piecewise";
+        let line = Line::parse_from(words.split(' '));
+        assert_eq!(line.common.words().join(" "), words.trim_start_matches("x "));
+        let error = Line::try_parse_from("x --projection none".split(' ')).err();
+        assert!(error.is_some_and(|e| e.to_string().contains("two-centres, shear")));
+    }
 }

@@ -3,9 +3,9 @@
 use super::*;
 use crate::quality::Quality;
 use crate::regression::drawn_line;
-use wheatstone_golden::formats::{Eye, Rgba};
-use wheatstone_golden::frame::{Frame, NO_ID};
-use wheatstone_golden::picture::{colour_picture, id_picture, write_png, Composite, Views};
+use wheatstone_golden::formats::Eye;
+use wheatstone_golden::frame::NO_ID;
+use wheatstone_golden::picture::{frame_picture, id_picture, write_png, Composite, Views};
 
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
@@ -68,7 +68,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
             frames.eyes
         }
     };
-    let pictures = [&frames[0], &frames[1]].map(picture);
+    let pictures = [&frames[0], &frames[1]].map(frame_picture);
     for eye in Eye::BOTH {
         let frame = &frames[eye as usize];
         save(&args.out, &format!("{}.png", eye.name()), &pictures[eye as usize])?;
@@ -102,9 +102,4 @@ fn save(folder: &Path, name: &str, picture: &image::RgbImage) -> Result<(), Fail
     write_png(&file, picture)?;
     say!("image {}", file.display());
     Ok(())
-}
-
-fn picture(frame: &Frame) -> image::RgbImage {
-    let colours: Vec<Rgba> = frame.colour.iter().map(|&[r, g, b]| Rgba([r, g, b, 255])).collect();
-    colour_picture(frame.width, frame.height, &colours)
 }
