@@ -17,6 +17,11 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
     RGBColor(60, 60, 60),
 ];
+/// A curve of more points has no markers.
+const MOST_MARKERS: usize = 100;
+const LEGEND_COLUMNS: usize = 2;
+/// Height of a line of the legend in pixels.
+const LEGEND_ROW: u32 = 20;
 const FONT: &str = "sans-serif";
 const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(222, 222, 222);
@@ -39,8 +44,8 @@ impl Series {
     }
 }
 
-/// Draws lines with a marker at every point into an SVG file; `axes` are what stands at the
-/// horizontal and at the vertical axis.
+/// Draws lines, with markers at up to 100 points each, into an SVG file; `axes` are what stands at
+/// the horizontal and at the vertical axis.
 pub fn lines(
     file: &Path,
     title: &str,
@@ -60,20 +65,21 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 fn draw(picture: &mut String, title: &str, axes: [&str; 2], series: &[Series]) -> Drawn {
     let root = SVGBackend::with_string(picture, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
+    let rows = series.len().div_ceil(LEGEND_COLUMNS) as u32;
+    let (area, legend) = root.split_vertically(SIZE.1 - rows * LEGEND_ROW - 8);
     let points = || series.iter().flat_map(|s| &s.points).filter(|p| is_finite(p));
-    let mut chart = ChartBuilder::on(&root)
-        .caption(title, (FONT, 20).into_font().color(&INK))
-        .margin(14)
-        .x_label_area_size(46)
-        .y_label_area_size(70)
+    let mut chart = ChartBuilder::on(&area)
+        .caption(title, (FONT, 22).into_font().color(&INK))
+        .margin(12)
+        .x_label_area_size(56)
+        .y_label_area_size(74)
         .build_cartesian_2d(range(points().map(|p| p.0)), range(points().map(|p| p.1)))?;
-    let label = (FONT, 15).into_font().color(&INK);
     chart
         .configure_mesh()
         .x_desc(axes[0])
         .y_desc(axes[1])
-        .axis_desc_style(label.clone())
-        .label_style((FONT, 14).into_font().color(&INK))
+        .axis_desc_style(text_style())
+        .label_style(text_style())
         .x_label_formatter(&|n| number(*n))
         .y_label_formatter(&|n| number(*n))
         .axis_style(INK)
@@ -81,24 +87,26 @@ fn draw(picture: &mut String, title: &str, axes: [&str; 2], series: &[Series]) -
         .light_line_style(TRANSPARENT)
         .draw()?;
     for (n, Series { name, points }) in series.iter().enumerate() {
-        let style = COLOURS[n % COLOURS.len()].stroke_width(2);
+        let colour = COLOURS[n % COLOURS.len()];
         for run in points.split(|p| !is_finite(p)).filter(|run| run.len() > 1) {
-            chart.draw_series(LineSeries::new(run.iter().copied(), style))?;
+            chart.draw_series(LineSeries::new(run.iter().copied(), colour.stroke_width(2)))?;
         }
-        let at = points.iter().filter(|p| is_finite(p));
-        chart
-            .draw_series(at.map(|p| Circle::new(*p, 3, style.color.filled())))?
-            .label(name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], style));
+        if points.len() <= MOST_MARKERS {
+            let at = points.iter().filter(|p| is_finite(p));
+            chart.draw_series(at.map(|p| Circle::new(*p, 3, colour.filled())))?;
+        }
+        // Beneath the plot, where it hides nothing.
+        let x = 90 + (n % LEGEND_COLUMNS) as i32 * (SIZE.0 as i32 - 100) / LEGEND_COLUMNS as i32;
+        let y = (n / LEGEND_COLUMNS) as i32 * LEGEND_ROW as i32 + 6;
+        legend.draw(&PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(3)))?;
+        legend.draw(&Text::new(name.as_str(), (x + 32, y - 7), text_style()))?;
     }
-    chart
-        .configure_series_labels()
-        .background_style(WHITE.mix(0.85))
-        .border_style(GRID)
-        .label_font(label)
-        .draw()?;
     root.present()?;
     Ok(())
+}
+
+fn text_style() -> TextStyle<'static> {
+    (FONT, 17).into_font().color(&INK)
 }
 
 fn is_finite(point: &(f64, f64)) -> bool {
