@@ -5,6 +5,7 @@
 
 pub mod plot;
 pub mod report;
+pub mod reproduce;
 pub mod timing;
 
 pub use report::{Check, Report, Row, Table, Verdict};

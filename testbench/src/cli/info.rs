@@ -4,6 +4,7 @@ use super::*;
 use crate::settings::RUN_PARAMETERS;
 use crate::tools::Doctor;
 use wheatstone_golden::config::{Config, Parameter, PARAMETERS};
+use wheatstone_studies::EXPERIMENTS;
 
 #[derive(Debug, Args)]
 pub(super) struct ListArgs {
@@ -45,6 +46,10 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
     for scene in &builtin::SCENES {
         say!("  {:<20}{}", scene.name, scene.description);
     }
+    say!("\nExperiments (wheatstone reproduce NAME)");
+    for experiment in EXPERIMENTS {
+        say!("  {:<20}{}", experiment.name, experiment.description);
+    }
     Ok(OK)
 }
 
@@ -59,6 +64,9 @@ fn list_json() -> serde_json::Value {
         "configurations": Config::NAMES,
         "scenes": builtin::SCENES.iter().map(|s| serde_json::json!({
             "name": s.name, "description": s.description,
+        })).collect::<Vec<_>>(),
+        "experiments": EXPERIMENTS.iter().map(|e| serde_json::json!({
+            "name": e.name, "description": e.description,
         })).collect::<Vec<_>>(),
     })
 }

@@ -14,6 +14,7 @@ mod cosim;
 mod generate;
 mod info;
 mod render;
+mod reproduce;
 mod vectors;
 mod waves;
 
@@ -34,6 +35,7 @@ use wheatstone_golden::scene::{self, builtin, Cull, Geometry, SceneError};
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
+use wheatstone_studies::StudyError;
 
 /// Everything worked and was equal.
 const OK: u8 = 0;
@@ -74,7 +76,9 @@ enum Command {
     Waves(waves::WavesArgs),
     /// Draw a scene in stereo with the golden model
     Render(render::RenderArgs),
-    /// List targets, configurations, parameters and scenes
+    /// Compute the publications' tables and figures anew
+    Reproduce(reproduce::ReproduceArgs),
+    /// List targets, configurations, parameters, scenes and experiments
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
     Doctor(info::DoctorArgs),
@@ -146,6 +150,8 @@ enum Failure {
     #[error(transparent)]
     Scene(#[from] SceneError),
     #[error(transparent)]
+    Study(#[from] StudyError),
+    #[error(transparent)]
     Write(#[from] WriteError),
     #[error(transparent)]
     Pack(#[from] PackError),
@@ -179,6 +185,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => vectors::check(args),
         Command::Waves(args) => waves::run(args),
         Command::Render(args) => render::run(args),
+        Command::Reproduce(args) => reproduce::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
         Command::Generate(args) => generate::run(args),
