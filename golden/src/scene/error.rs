@@ -88,7 +88,7 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// Neither a built-in scene nor a file of a known kind.
-    #[error("scene {name}: expected a file ending in .obj or .json, or one of: {}", .builtin.join(", "))]
+    #[error("scene {name}: expected a file ending in .obj, .json, .png, .txt or .grid, or one of: {}", .builtin.join(", "))]
     Unknown {
         /// What was asked for.
         name: String,
@@ -131,4 +131,14 @@ pub fn check_size(width: u32, height: u32, limit: u32) -> Result<(), SceneError>
 /// The bytes of a file.
 pub fn read(file: &Path) -> Result<Vec<u8>, SceneError> {
     std::fs::read(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })
+}
+
+/// The text of a file.
+pub fn read_text(file: &Path) -> Result<String, SceneError> {
+    let text = String::from_utf8(read(file)?).map_err(|e| {
+        let valid = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line = valid.iter().filter(|&&b| b == b'\n').count() + 1;
+        InputError::new(file, line, "file", "UTF-8 text", "other bytes")
+    })?;
+    Ok(text)
 }

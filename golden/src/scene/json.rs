@@ -18,7 +18,7 @@
 //!
 //! Nothing is lit. Triangles without area are legal and draw nothing.
 
-use super::error::{read, InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT, SIZE_LIMIT};
+use super::error::{read_text, InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT, SIZE_LIMIT};
 use super::locate::Locator;
 use super::{Colours, Material, Mesh, Rig, Scene};
 use serde::de::{DeserializeOwned, Error, Unexpected, Visitor};
@@ -125,12 +125,7 @@ fn broken(file: &Path, error: &serde_json::Error, path: &str) -> InputError {
 
 /// Reads a scene file.
 pub fn load(file: &Path) -> Result<Scene, SceneError> {
-    let bytes = read(file)?;
-    let text = std::str::from_utf8(&bytes).map_err(|e| {
-        let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
-        InputError::new(file, line, "file", "UTF-8 text", "other bytes")
-    })?;
-    scene(file, text)
+    scene(file, &read_text(file)?)
 }
 
 /// Makes a scene of a scene file's text; `file` is its name in messages.

@@ -6,6 +6,7 @@
 //!
 //! - code: the built-in scenes, [`builtin`];
 //! - a mesh, [`obj`]: centred and fitted at the screen plane, lit;
+//! - a grid of heights, [`height_field`]: placed in the same way;
 //! - a file of its own format, [`json`]: drawn as it stands.
 //!
 //! [`open`] finds out which. A rig file ([`rig_file`]) may move the eyes and change the screen.
@@ -16,12 +17,14 @@ pub mod builtin;
 pub mod clip;
 mod error;
 mod geometry;
+pub mod height_field;
 pub mod json;
 pub mod light;
 mod locate;
 mod mesh;
 pub mod obj;
 mod obj_check;
+pub mod place;
 mod rig;
 pub mod rig_file;
 mod shading;
@@ -75,7 +78,8 @@ impl Scene {
     }
 }
 
-/// Opens a built-in scene by its name, or a file that ends in `.obj` or `.json`.
+/// Opens a built-in scene by its name, or a file that ends in `.obj`, `.json`, or, with a grid of
+/// heights, in `.png`, `.txt` or `.grid`.
 ///
 /// `size` is the size of the views in pixels; it goes before that of the rig file, which goes
 /// before that of the scene. Where the size differs from the scene's own and the rig file does
@@ -96,6 +100,11 @@ pub fn open(
             return obj::load(path, empty, &rig_file.placement());
         }
         Some("json") => json::load(path)?,
+        Some(e) if height_field::is_grid(e) => {
+            return field(&height_field::load(path)?, size, &rig_file);
+        }
+        // The one built-in scene that a rig file may place.
+        _ if name == builtin::ATOMS => return field(&height_field::atoms(), size, &rig_file),
         _ => {
             let [width, height] = size.unwrap_or(DEFAULT_SIZE);
             builtin::scene(name, width, height)?
@@ -103,4 +112,16 @@ pub fn open(
     };
     rig_file.apply(&mut scene, size)?;
     Ok(scene)
+}
+
+/// A height field with a rig file's changes.
+fn field(
+    grid: &height_field::HeightGrid,
+    size: Option<[u32; 2]>,
+    rig_file: &RigFile,
+) -> Result<Scene, SceneError> {
+    let [width, height] = DEFAULT_SIZE;
+    let mut empty = height_field::empty_scene(width, height);
+    rig_file.apply(&mut empty, size)?;
+    Ok(height_field::scene(grid, empty, &rig_file.placement()))
 }

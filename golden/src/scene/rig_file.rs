@@ -12,15 +12,19 @@
 //! | `near`, `far` | distances from the eyes to the planes that cut the scene | a hundredth and a hundred times the viewing distance |
 //! | `head_tilt` | degrees by which the right eye is turned up | 0 |
 //! | `background` | `[red, green, blue]`, 0 to 255 | `[40, 44, 52]` |
-//! | `placement` | object, see below; concerns `.obj` meshes only | |
+//! | `placement` | object, see below; concerns meshes and height fields | |
 //! | `light` | object, see below; concerns scenes that are lit | |
 //!
 //! `placement`: the mesh is turned by `rotation`, `[x, y, z]` in degrees, about its y axis first,
 //! then x, then z (right-hand rule in the mesh's own, right-handed coordinates: z towards the
-//! viewer; default `[0, 0, 0]`); its
+//! viewer; default `[0, 0, 0]`), then so that it is seen from the direction of the point `eye` in
+//! these coordinates with the direction `up` upright, if there is
+//! `"view": {"eye": [x, y, z], "up": [x, y, z]}`; its
 //! bounding box is centred on the screen and its longest side scaled to `fit` (default 0.8) times
 //! the smaller side of the screen, and it is moved by `offset` (`[x, y, z]` in units, z away from
 //! the viewer; default `[0, 0, 0]`). With `"fit": null` it is neither centred nor scaled.
+//! The heights of a height field are first multiplied so that their range is `relief` (default 0.1;
+//! `null` leaves them as they are) times its longer side.
 //!
 //! `light`: `direction` towards the light (`[x, y, z]`, z away; default `[-2, 4, -3]`), its
 //! `colour` (default `[0.8, 0.8, 0.8]`; 1 is white) and the `ambient` light (default
@@ -30,9 +34,10 @@ use super::error::{check_size, InputError, SceneError, COORDINATE_LIMIT, SIZE_LI
 use super::json::{parse, Channel};
 use super::light::{Light, Lighting, Source};
 use super::locate::Locator;
+use super::place::Placement;
 use super::vector::Vec3;
 use super::Scene;
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
 /// A rig file as it stands.
@@ -55,31 +60,6 @@ pub struct RigFile {
     file: PathBuf,
     #[serde(skip)]
     text: String,
-}
-
-/// How a mesh is placed.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Placement {
-    /// Degrees about the mesh's x, y and z axes; y comes first, then x, then z.
-    pub rotation: [f64; 3],
-    /// Longest side of the bounding box, in smaller sides of the screen; none leaves the mesh
-    /// where it is.
-    #[serde(deserialize_with = "required_option")]
-    pub fit: Option<f64>,
-    /// Movement after fitting.
-    pub offset: Vec3,
-}
-
-/// Tells `null` from a field that is not there.
-fn required_option<'de, D: Deserializer<'de>>(value: D) -> Result<Option<f64>, D::Error> {
-    Option::deserialize(value)
-}
-
-impl Default for Placement {
-    fn default() -> Placement {
-        Placement { rotation: [0.0; 3], fit: Some(0.8), offset: [0.0; 3] }
-    }
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -139,6 +119,23 @@ impl RigFile {
         if let Some(fit) = self.placement.fit.filter(|fit| !(0.001..=1000.0).contains(fit)) {
             let expected = "0.001 to 1000 or null";
             return Err(self.wrong("placement.fit", expected, fit.to_string()).into());
+        }
+        if let Some(relief) = self.placement.relief.filter(|n| !(0.0..=1000.0).contains(n)) {
+            let expected = "0 to 1000 or null";
+            return Err(self.wrong("placement.relief", expected, relief.to_string()).into());
+        }
+        if let Some(view) = &self.placement.view {
+            vector("placement.view.eye", Some(view.eye), -limit, limit)?;
+            vector("placement.view.up", Some(view.up), -limit, limit)?;
+            if view.eye == [0.0; 3] {
+                let expected = "a point other than the origin, which is looked at";
+                return Err(self.wrong("placement.view.eye", expected, "the origin".into()).into());
+            }
+            if view.axes().is_none() {
+                let expected = format!("a direction across the line of sight to {:?}", view.eye);
+                let found = format!("{:?}", view.up);
+                return Err(self.wrong("placement.view.up", &expected, found).into());
+            }
         }
         if let Some(light) = &self.light {
             vector("light.direction", light.direction, -limit, limit)?;
