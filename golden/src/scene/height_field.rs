@@ -8,21 +8,24 @@
 //!
 //! - placed as [`super::rig_file`] says, seen from [`VIEW`] if it does not say from where;
 //! - shaded with clamp(n·l, 0, 1) of white, n the normal of the triangle and l the direction to
-//!   the light, without ambient light (section "Shading");
+//!   the light, without ambient light (section "Shading"; a rig file may change the light);
 //! - looked at as by the authors: [`physical_rig`].
 
 use super::error::{read, read_text, InputError, SceneError, COORDINATE_LIMIT};
-use super::light::{Light, Source};
+use super::light::{Light, Point, Source};
 use super::place::{place, Placement, Viewpoint};
 use super::rig::Rig;
 use super::vector::{turn, unit, Vec3};
-use super::{Lighting, Material, Mesh, Scene};
+use super::{Colours, Lighting, Material, Mesh, Scene};
 use std::path::Path;
 
 /// Most heights in a row or column of a grid that is read.
 pub const GRID_LIMIT: usize = 1024;
 /// From where a field is seen: from the lower left, at about 38 degrees above its plane.
 pub const VIEW: Viewpoint = Viewpoint { eye: [-0.45, -1.0, 0.85], up: [0.0, 0.0, 1.0] };
+/// Longest side of a placed field, in smaller sides of the screen, where nothing else is said: it
+/// lies, so that the screen's larger side holds it.
+pub const FIT: f64 = 1.15;
 /// Heights a side of [`atoms`], as of the authors' samples.
 pub const ATOMS: usize = 200;
 
@@ -78,9 +81,9 @@ impl HeightGrid {
         [self.columns, self.heights.len() / self.columns]
     }
 
-    /// A height; `row` counts from the top.
-    pub fn height(&self, row: usize, column: usize) -> f64 {
-        self.heights[row * self.columns + column]
+    /// The heights, row by row from the top.
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
     }
 
     /// Multiplies the heights so that the highest and the lowest differ by this part of the grid's
@@ -95,32 +98,43 @@ impl HeightGrid {
         HeightGrid { columns: self.columns, heights }
     }
 
-    /// Two triangles a cell, each with three vertices of its own, which have its normal.
+    /// The two triangles of every cell, row by row.
     pub fn mesh(&self) -> Mesh {
-        let mut mesh = Mesh::default();
         let [columns, rows] = self.size();
         let middle = [columns, rows].map(|n| (n - 1) as f64 / 2.0);
         // Scenes have z away from the viewer, whom heights point to.
-        let point = |(row, column): (usize, usize)| {
-            let [x, y] = [column as f64 - middle[0], middle[1] - row as f64];
-            [x, y, -self.height(row, column)]
+        let point = |n: usize| {
+            let [x, y] = [(n % columns) as f64 - middle[0], middle[1] - (n / columns) as f64];
+            [x, y, -self.heights[n]]
         };
-        for (row, column) in (0..rows - 1).flat_map(|r| (0..columns - 1).map(move |c| (r, c))) {
-            let [upper_left, lower_left] = [(row, column), (row + 1, column)];
-            let [lower_right, upper_right] = [(row + 1, column + 1), (row, column + 1)];
-            let rise = |(r, c): (usize, usize)| self.height(r, c) - self.height(row, column);
-            let normals = normals(1.0, [lower_left, lower_right, upper_right].map(rise));
-            let triangles =
-                [[upper_left, lower_left, lower_right], [upper_left, lower_right, upper_right]];
-            for (corners, normal) in triangles.into_iter().zip(normals) {
-                let first = mesh.positions.len() as u32;
-                let [x, y, z] = unit(normal);
-                mesh.positions.extend(corners.map(point));
-                mesh.normals.extend([[x, y, -z]; 3]);
-                mesh.triangles.push([first, first + 1, first + 2]);
-            }
+        let triangles = self.cells().flat_map(|corners| {
+            let [upper_left, lower_left, lower_right, upper_right] = corners.map(|n| n as u32);
+            [[upper_left, lower_left, lower_right], [upper_left, lower_right, upper_right]]
+        });
+        Mesh {
+            positions: (0..self.heights.len()).map(point).collect(),
+            triangles: triangles.collect(),
+            ..Mesh::default()
         }
-        mesh
+    }
+
+    /// Unit normals of the triangles of [`HeightGrid::mesh`], on the side that heights point to.
+    pub fn normals(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.cells().flat_map(|[upper_left, others @ ..]| {
+            let rises = others.map(|n| self.heights[n] - self.heights[upper_left]);
+            normals(1.0, rises).map(|normal| {
+                let [x, y, z] = unit(normal);
+                [x, y, -z]
+            })
+        })
+    }
+
+    /// Indices of the upper left, lower left, lower right and upper right height of every cell.
+    fn cells(&self) -> impl Iterator<Item = [usize; 4]> {
+        let [columns, rows] = self.size();
+        let starts = (0..rows - 1)
+            .flat_map(move |row| (0..columns - 1).map(move |column| row * columns + column));
+        starts.map(move |n| [n, n + columns, n + columns + 1, n + 1])
     }
 }
 
@@ -138,13 +152,30 @@ pub fn empty_scene(width: u32, height: u32) -> Scene {
     }
 }
 
-/// Puts a field into a scene that has nothing yet.
+/// Puts a field into a scene that has nothing yet, in whose light it is shaded once and for all:
+/// clamp(n·l, 0, 1) for each light, and the ambient light.
 pub fn scene(grid: &HeightGrid, mut scene: Scene, placement: &Placement) -> Scene {
+    let placement = Placement {
+        view: placement.view.or(Some(VIEW)),
+        fit: placement.fit.or(Some(Some(FIT))),
+        ..placement.clone()
+    };
     let stretched = placement.relief.map(|relief| grid.stretched(relief));
-    scene.meshes.push(stretched.as_ref().unwrap_or(grid).mesh());
-    scene.materials.push(Material { diffuse: [1.0; 3], ..Material::default() });
-    let view = placement.view.unwrap_or(VIEW);
-    place(&mut scene, &Placement { view: Some(view), ..placement.clone() });
+    let grid = stretched.as_ref().unwrap_or(grid);
+    // Lit here and not as other meshes are, because that would light a triangle whose back is seen
+    // from behind.
+    let light = scene.lighting.take().unwrap_or_default();
+    let white = Material { diffuse: [1.0; 3], ..Material::default() };
+    let colours = grid.normals().map(|normal| {
+        let normal = placement.turn(normal);
+        let point = Point { position: [0.0; 3], normal, base: white.diffuse };
+        let [colour, _] = light.shade(&point, &white, &scene.environment, [[0.0, 0.0, -1.0]; 2]);
+        colour.map(|n| n.clamp(0.0, 255.0).round() as u8)
+    });
+    let colours = Colours::Face(colours.collect());
+    scene.meshes.push(Mesh { colours, ..grid.mesh() });
+    scene.materials.push(white);
+    place(&mut scene, &placement);
     scene
 }
 

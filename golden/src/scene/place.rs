@@ -4,6 +4,9 @@ use super::vector::{add, cross, dot, rotate, scale, sub, unit, Vec3};
 use super::Scene;
 use serde::{Deserialize, Deserializer};
 
+/// Longest side of a placed mesh, in smaller sides of the screen, where nothing else is said.
+const FIT: f64 = 0.8;
+
 /// How a mesh or a height field is placed.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -12,32 +15,25 @@ pub struct Placement {
     pub rotation: [f64; 3],
     /// From where it is seen, after that.
     pub view: Option<Viewpoint>,
-    /// Longest side of the bounding box, in smaller sides of the screen; none leaves it where it
-    /// is.
-    #[serde(deserialize_with = "required_option")]
-    pub fit: Option<f64>,
+    /// Longest side of the bounding box, in smaller sides of the screen ([`FIT`] where nothing is
+    /// said); `Some(None)` leaves it where it is.
+    #[serde(deserialize_with = "given")]
+    pub fit: Option<Option<f64>>,
     /// Movement after fitting.
     pub offset: Vec3,
     /// Difference between the highest and the lowest point of a height field, in longer sides of
     /// it; none leaves the heights as they are.
-    #[serde(deserialize_with = "required_option")]
     pub relief: Option<f64>,
 }
 
 /// Tells `null` from a field that is not there.
-fn required_option<'de, D: Deserializer<'de>>(value: D) -> Result<Option<f64>, D::Error> {
-    Option::deserialize(value)
+fn given<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Option<f64>>, D::Error> {
+    Option::deserialize(value).map(Some)
 }
 
 impl Default for Placement {
     fn default() -> Placement {
-        Placement {
-            rotation: [0.0; 3],
-            view: None,
-            fit: Some(0.8),
-            offset: [0.0; 3],
-            relief: Some(0.1),
-        }
+        Placement { rotation: [0.0; 3], view: None, fit: None, offset: [0.0; 3], relief: Some(0.1) }
     }
 }
 
@@ -69,20 +65,23 @@ impl Viewpoint {
     }
 }
 
-/// Turns, centres, scales and moves the meshes of a scene.
-///
-/// They are left-handed already: their z is that of their own coordinates, turned round.
-pub fn place(scene: &mut Scene, placement: &Placement) {
-    // Mirrored in z, a turn about x or y goes the other way.
-    let [x, y, z] = placement.rotation;
-    let axes = placement.view.and_then(|view| view.axes());
-    let turned = |p: Vec3| {
+impl Placement {
+    /// A point or direction turned as the placement says; before and after its z points away
+    /// from the viewer, other than in its own coordinates.
+    pub fn turn(&self, p: Vec3) -> Vec3 {
+        // Mirrored in z, a turn about x or y goes the other way.
+        let [x, y, z] = self.rotation;
         let p = rotate(rotate(rotate(p, 1, -y), 0, -x), 2, z);
-        axes.map_or(p, |axes| {
+        self.view.and_then(|view| view.axes()).map_or(p, |axes| {
             let [right, up, backward] = axes.map(|axis| dot(axis, [p[0], p[1], -p[2]]));
             [right, up, -backward]
         })
-    };
+    }
+}
+
+/// Turns, centres, scales and moves the meshes of a scene.
+pub fn place(scene: &mut Scene, placement: &Placement) {
+    let turned = |p| placement.turn(p);
     scene.meshes.iter_mut().for_each(|mesh| mesh.transform(turned, turned));
     let mut least = [f64::MAX; 3];
     let mut most = [f64::MIN; 3];
@@ -90,7 +89,7 @@ pub fn place(scene: &mut Scene, placement: &Placement) {
         least = std::array::from_fn(|k| least[k].min(position[k]));
         most = std::array::from_fn(|k| most[k].max(position[k]));
     }
-    let Some(fit) = placement.fit else {
+    let Some(fit) = placement.fit.unwrap_or(Some(FIT)) else {
         let moved = |p: Vec3| add(p, placement.offset);
         return scene.meshes.iter_mut().for_each(|mesh| mesh.transform(moved, |n| n));
     };

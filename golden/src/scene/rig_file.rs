@@ -20,8 +20,8 @@
 //! viewer; default `[0, 0, 0]`), then so that it is seen from the direction of the point `eye` in
 //! these coordinates with the direction `up` upright, if there is
 //! `"view": {"eye": [x, y, z], "up": [x, y, z]}`; its
-//! bounding box is centred on the screen and its longest side scaled to `fit` (default 0.8) times
-//! the smaller side of the screen, and it is moved by `offset` (`[x, y, z]` in units, z away from
+//! bounding box is centred on the screen and its longest side scaled to `fit` (default 0.8, of a
+//! height field 1.15) times the smaller side of the screen, and it is moved by `offset` (`[x, y, z]` in units, z away from
 //! the viewer; default `[0, 0, 0]`). With `"fit": null` it is neither centred nor scaled.
 //! The heights of a height field are first multiplied so that their range is `relief` (default 0.1;
 //! `null` leaves them as they are) times its longer side.
@@ -116,7 +116,9 @@ impl RigFile {
         };
         vector("placement.rotation", Some(self.placement.rotation), -360.0, 360.0)?;
         vector("placement.offset", Some(self.placement.offset), -limit, limit)?;
-        if let Some(fit) = self.placement.fit.filter(|fit| !(0.001..=1000.0).contains(fit)) {
+        if let Some(fit) =
+            self.placement.fit.flatten().filter(|fit| !(0.001..=1000.0).contains(fit))
+        {
             let expected = "0.001 to 1000 or null";
             return Err(self.wrong("placement.fit", expected, fit.to_string()).into());
         }
