@@ -29,6 +29,7 @@ mod rig;
 pub mod rig_file;
 mod shading;
 pub mod vector;
+pub mod wires;
 
 pub use error::*;
 pub use geometry::{Counts, Cull, Geometry, Options};

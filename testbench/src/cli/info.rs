@@ -42,7 +42,7 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
     for parameter in &RUN_PARAMETERS {
         say!("  {}={}\n      {}", parameter.name, parameter.values.join("|"), parameter.help);
     }
-    say!("\nScenes (--scene NAME), or a file ending in .obj or .json");
+    say!("\nScenes (--scene NAME), or a file: .obj mesh, .json scene, or .png, .txt or .grid heights");
     for scene in &builtin::SCENES {
         say!("  {:<20}{}", scene.name, scene.description);
     }

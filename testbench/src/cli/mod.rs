@@ -31,7 +31,8 @@ use std::process::ExitCode;
 use thiserror::Error;
 use wheatstone_golden::formats::Formats;
 use wheatstone_golden::picture::WriteError;
-use wheatstone_golden::scene::{self, builtin, Cull, Geometry, SceneError};
+use wheatstone_golden::scene::wires::wire_frame;
+use wheatstone_golden::scene::{self, builtin, Cull, Geometry, Scene, SceneError};
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
@@ -95,7 +96,7 @@ struct Common {
     /// Change one parameter (see `wheatstone list`); may be repeated
     #[arg(long = "param", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
-    /// Built-in scene, or a file ending in .obj or .json
+    /// Built-in scene, or a file ending in .obj, .json, .png, .txt or .grid
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
     /// Size of each view in pixels
@@ -107,6 +108,9 @@ struct Common {
     /// Which faces to leave out
     #[arg(long, value_enum, default_value = "none")]
     cull: CullChoice,
+    /// Draw the edges of the polygons, one pixel thick, instead of the polygons
+    #[arg(long)]
+    wire: bool,
 }
 
 /// Options of the commands that simulate or make vectors.
@@ -202,6 +206,12 @@ impl Common {
         Ok(Settings::new(&self.config, &self.parameters)?)
     }
 
+    /// A scene from the eyes that the command line chose.
+    fn open(&self, name: &str, size: Option<[u32; 2]>) -> Result<Scene, Failure> {
+        let scene = scene::open(name, size, self.rig.as_deref())?;
+        Ok(if self.wire { wire_frame(&scene)? } else { scene })
+    }
+
     /// A scene's polygons for these settings.
     fn geometry(
         &self,
@@ -209,7 +219,7 @@ impl Common {
         size: Option<[u32; 2]>,
         settings: &Settings,
     ) -> Result<Geometry, Failure> {
-        let scene = scene::open(name, size, self.rig.as_deref())?;
+        let scene = self.open(name, size)?;
         let cull = match self.cull {
             CullChoice::None => Cull::None,
             CullChoice::Back => Cull::Back,
@@ -236,6 +246,9 @@ impl Common {
         }
         if self.cull == CullChoice::Back {
             words.push("--cull back".into());
+        }
+        if self.wire {
+            words.push("--wire".into());
         }
         words
     }
