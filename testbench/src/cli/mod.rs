@@ -212,14 +212,18 @@ impl Common {
         Ok(if self.wire { wire_frame(&scene)? } else { scene })
     }
 
-    /// A scene's polygons for these settings.
+    /// The polygons of the scene of that name.
     fn geometry(
         &self,
         name: &str,
         size: Option<[u32; 2]>,
         settings: &Settings,
     ) -> Result<Geometry, Failure> {
-        let scene = self.open(name, size)?;
+        self.geometry_of(&self.open(name, size)?, settings)
+    }
+
+    /// The polygons of a scene for these settings.
+    fn geometry_of(&self, scene: &Scene, settings: &Settings) -> Result<Geometry, Failure> {
         let cull = match self.cull {
             CullChoice::None => Cull::None,
             CullChoice::Back => Cull::Back,
