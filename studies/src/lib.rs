@@ -3,6 +3,7 @@
 //! An experiment is a function that returns a [`Report`]: tables of what is printed, what is correct
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
+pub mod filter;
 pub mod plot;
 pub mod report;
 pub mod reproduce;
@@ -27,7 +28,7 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order they are run.
-pub const EXPERIMENTS: &[Experiment] = &[];
+pub const EXPERIMENTS: &[Experiment] = &[filter::EXPERIMENT];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]

@@ -99,6 +99,12 @@ impl Row {
         self
     }
 
+    /// A figure that is not printed, but follows from what is.
+    pub fn expected(mut self, expected: f64) -> Row {
+        self.corrected = Some(expected);
+        self
+    }
+
     /// A printed figure that should be another.
     pub fn corrected(mut self, corrected: f64, erratum: &'static str) -> Row {
         (self.corrected, self.erratum) = (Some(corrected), Some(erratum));

@@ -133,12 +133,13 @@ pub fn read(file: &Path) -> Result<Vec<u8>, SceneError> {
     std::fs::read(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })
 }
 
-/// The text of a file.
+/// The text of a file, without the byte order mark that some editors put in front.
 pub fn read_text(file: &Path) -> Result<String, SceneError> {
-    let text = String::from_utf8(read(file)?).map_err(|e| {
-        let valid = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-        let line = valid.iter().filter(|&&b| b == b'\n').count() + 1;
+    let bytes = read(file)?;
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
         InputError::new(file, line, "file", "UTF-8 text", "other bytes")
     })?;
-    Ok(text)
+    Ok(text.into())
 }
