@@ -44,11 +44,13 @@ fn normals_are_those_of_the_triangles() {
     let mut rng = Rng::with_seed(1);
     for _ in 0..1000 {
         let dx = rng.f64() + 0.1;
-        let [a, b, c] = [(); 3].map(|()| rng.f64() * 3.0 - 1.5);
+        let [z, a, b, c] = [(); 4].map(|()| rng.f64() * 3.0 - 1.5);
         // Rows go down: y falls from a row to the next.
         let corners = [[0.0, -dx, a], [dx, -dx, b], [dx, 0.0, c]];
         let by_products = [cross(corners[0], corners[1]), cross(corners[1], corners[2])];
-        for (normal, product) in normals(dx, [a, b, c]).into_iter().zip(by_products) {
+        for (normal, product) in
+            normals(dx, dx * dx, [z, z + a, z + b, z + c]).into_iter().zip(by_products)
+        {
             assert!(sub(normal, product).iter().all(|n| n.abs() < 1e-12), "{normal:?} {product:?}");
         }
     }

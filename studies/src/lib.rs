@@ -4,7 +4,9 @@
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
 pub mod filter;
+pub mod height_field;
 pub mod plot;
+pub mod prepared;
 pub mod report;
 pub mod reproduce;
 pub mod timing;
@@ -28,7 +30,7 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order they are run.
-pub const EXPERIMENTS: &[Experiment] = &[filter::EXPERIMENT];
+pub const EXPERIMENTS: &[Experiment] = &[filter::EXPERIMENT, height_field::EXPERIMENT];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]

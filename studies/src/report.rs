@@ -111,6 +111,12 @@ impl Row {
         self
     }
 
+    /// Names an erratum that the figure shows.
+    pub fn because(mut self, erratum: &'static str) -> Row {
+        self.erratum = Some(erratum);
+        self
+    }
+
     /// Names the unit.
     pub fn unit(mut self, unit: &str) -> Row {
         self.unit = unit.into();

@@ -17,6 +17,7 @@ use super::place::{place, Placement, Viewpoint};
 use super::rig::Rig;
 use super::vector::{turn, unit, Vec3};
 use super::{Colours, Lighting, Material, Mesh, Scene};
+use crate::work::Real;
 use std::path::Path;
 
 /// Most heights in a row or column of a grid that is read.
@@ -56,11 +57,12 @@ pub struct HeightGrid {
     heights: Vec<f64>,
 }
 
-/// Normals, not of unit length, of the two triangles of a cell whose samples are `spacing` apart
-/// (Listing Three): with the height of the cell's upper left corner taken off, `a`, `b` and `c`
-/// are those of its lower left, lower right and upper right corner.
-pub fn normals(spacing: f64, [a, b, c]: [f64; 3]) -> [Vec3; 2] {
-    let (dx, square) = (spacing, spacing * spacing);
+/// Normals, not of unit length, of the two triangles of a cell (Listing Three). `heights` are
+/// those of its upper left, lower left, lower right and upper right corner, `dx` is the distance
+/// of neighbouring samples and `square` its square.
+pub fn normals<T: Real>(dx: T, square: T, heights: [T; 4]) -> [[T; 3]; 2] {
+    let [z11, z21, z22, z12] = heights;
+    let [a, b, c] = [z21 - z11, z22 - z11, z12 - z11];
     [[dx * (a - b), dx * a, square], [-dx * c, dx * (b - c), square]]
 }
 
@@ -120,9 +122,8 @@ impl HeightGrid {
 
     /// Unit normals of the triangles of [`HeightGrid::mesh`], on the side that heights point to.
     pub fn normals(&self) -> impl Iterator<Item = Vec3> + '_ {
-        self.cells().flat_map(|[upper_left, others @ ..]| {
-            let rises = others.map(|n| self.heights[n] - self.heights[upper_left]);
-            normals(1.0, rises).map(|normal| {
+        self.cells().flat_map(|corners| {
+            normals(1.0, 1.0, corners.map(|n| self.heights[n])).map(|normal| {
                 let [x, y, z] = unit(normal);
                 [x, y, -z]
             })
@@ -130,7 +131,7 @@ impl HeightGrid {
     }
 
     /// Indices of the upper left, lower left, lower right and upper right height of every cell.
-    fn cells(&self) -> impl Iterator<Item = [usize; 4]> {
+    pub fn cells(&self) -> impl Iterator<Item = [usize; 4]> {
         let [columns, rows] = self.size();
         let starts = (0..rows - 1)
             .flat_map(move |row| (0..columns - 1).map(move |column| row * columns + column));
