@@ -139,7 +139,7 @@ fn projections(prepared: &Prepared) -> Table {
     let rig = prepared.scene.rig;
     let [e, d] = [rig.eye_separation, rig.viewing_distance];
     let [width, height] = [prepared.scene.width, prepared.scene.height];
-    let camera = Camera::new(rig, width, height, &Formats::new(&Prepared::CONFIG));
+    let camera = Camera::new(rig, width, height, &Formats::new(&prepared.config));
     // Where an eye sees a point on the screen, in units from the middle.
     let drawn = |p: Vec3, eye: Eye| {
         let [x, y] = camera.pixel(p, eye);

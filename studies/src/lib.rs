@@ -3,6 +3,7 @@
 //! An experiment is a function that returns a [`Report`]: tables of what is printed, what is correct
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
+pub mod compare;
 pub mod filter;
 pub mod height_field;
 pub mod plot;

@@ -9,37 +9,41 @@ use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::texture::Lookup;
 
-/// A scene with its polygons, for the default configuration.
+/// A scene with its polygons, and how they are drawn.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     /// The scene: eyes, meshes, light.
     pub scene: Scene,
     /// Its polygons, snapped.
     pub geometry: Geometry,
+    /// Build parameters of the hardware that is modelled.
+    pub config: Config,
+    /// Choices of setup.
+    pub options: Options,
+    /// How textures are sampled.
+    pub lookup: Lookup,
 }
 
 impl Prepared {
-    /// Build parameters of the hardware that is modelled.
-    pub const CONFIG: Config = Config::DEFAULT;
-
-    /// Lights, projects, clips and snaps a scene.
+    /// Lights, projects, clips and snaps a scene for the default configuration.
     pub fn new(scene: Scene) -> Result<Prepared, SceneError> {
-        let formats = Formats::new(&Prepared::CONFIG);
-        let geometry = scene.geometry(&formats, &scene::Options::default())?;
-        Ok(Prepared { scene, geometry })
+        let config = Config::DEFAULT;
+        let geometry = scene.geometry(&Formats::new(&config), &scene::Options::default())?;
+        let (options, lookup) = (Options::new(&config), Lookup::Nearest);
+        Ok(Prepared { scene, geometry, config, options, lookup })
     }
 
     /// The job that draws it.
     pub fn job(&self) -> Job<'_> {
         Job {
-            config: Prepared::CONFIG,
-            options: Options::new(&Prepared::CONFIG),
+            config: self.config,
+            options: self.options,
             width: self.geometry.width,
             height: self.geometry.height,
             background: self.geometry.background.rgb(),
             polygons: &self.geometry.polygons,
             textures: &self.geometry.textures,
-            lookup: Lookup::Nearest,
+            lookup: self.lookup,
         }
     }
 }

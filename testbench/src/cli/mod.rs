@@ -10,6 +10,7 @@ macro_rules! say {
     }};
 }
 
+mod compare;
 mod cosim;
 mod generate;
 mod info;
@@ -77,6 +78,8 @@ enum Command {
     Waves(waves::WavesArgs),
     /// Draw a scene in stereo with the golden model
     Render(render::RenderArgs),
+    /// Make the second view in every way and compare work, time and errors
+    Compare(compare::CompareArgs),
     /// Compute the publications' tables and figures anew
     Reproduce(reproduce::ReproduceArgs),
     /// List targets, configurations, parameters, scenes and experiments
@@ -189,6 +192,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => vectors::check(args),
         Command::Waves(args) => waves::run(args),
         Command::Render(args) => render::run(args),
+        Command::Compare(args) => compare::run(args),
         Command::Reproduce(args) => reproduce::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),

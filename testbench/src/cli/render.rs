@@ -1,13 +1,13 @@
 //! `wheatstone render`.
 
 use super::*;
-use crate::quality::Quality;
 use crate::regression::drawn_line;
 use wheatstone_golden::formats::{Eye, Rgba};
 use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::picture::{
     colour_picture, id_picture, print_resolution, write_png, Composite, Views,
 };
+use wheatstone_golden::quality::Quality;
 use wheatstone_golden::scene::height_field::EYE_SEPARATION;
 
 #[derive(Debug, Args)]
