@@ -347,5 +347,5 @@ fn the_atoms_are_drawn_as_directly() {
     let direct = job.direct();
     let covered = direct[0].id.iter().filter(|&&id| id != u32::MAX).count();
     assert!(covered > 20_000, "{covered}");
-    assert_eq!(job.derived(false).0.eyes, direct);
+    assert!(job.derived(false).0.eyes == direct);
 }
