@@ -1,11 +1,9 @@
 //! `wheatstone compare`.
 
 use super::*;
-use indicatif::ProgressBar;
-use std::time::Duration;
 use wheatstone_golden::picture::write_file;
 use wheatstone_golden::setup::Arrangement;
-use wheatstone_studies::compare::{compare, json, table, METHODS};
+use wheatstone_studies::compare::{compare, json, table, Method};
 use wheatstone_studies::prepared::Prepared;
 
 #[derive(Debug, Args)]
@@ -35,18 +33,10 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     }
     let prepared =
         Prepared { scene, geometry, config: settings.config, options, lookup: settings.lookup };
-    let bar = is_terminal().then(|| ProgressBar::new(METHODS.len() as u64));
-    let outcomes = compare(&prepared, args.out.as_deref(), |method| match &bar {
-        Some(bar) => {
-            bar.enable_steady_tick(Duration::from_millis(200));
-            bar.set_message(method.name);
-            bar.inc(1);
-        }
-        None => eprintln!("{}: {}", method.name, method.description),
-    });
-    if let Some(bar) = &bar {
-        bar.finish_and_clear();
-    }
+    let spinner = Spinner::new();
+    let tell = |method: &Method| spinner.tell(method.name, method.description);
+    let outcomes = compare(&prepared, args.out.as_deref(), tell);
+    drop(spinner);
     let outcomes = outcomes?;
     let Geometry { width, height, polygons, .. } = &prepared.geometry;
     say!("{name}, {width}x{height}, {} polygons: the second view", polygons.len());

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::regression::{self, Entry, Event, NamedScene, Plan, Waves};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Mutex;
 use wheatstone_golden::formats::{Eye, Rgba};
 use wheatstone_golden::picture::{colour_picture, write_file, write_png};

@@ -26,6 +26,7 @@ use crate::settings::{SettingError, Settings};
 use crate::tools::{ToolError, Toolchain};
 use crate::{BuildError, Builder};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -328,6 +329,46 @@ fn output_folder(name: &str) -> PathBuf {
 /// Whether progress can be drawn over.
 fn is_terminal() -> bool {
     std::io::stderr().is_terminal()
+}
+
+/// Tells what is being worked on: beside a spinner in a terminal, a line each elsewhere.
+struct Spinner(Option<ProgressBar>);
+
+impl Spinner {
+    fn new() -> Spinner {
+        let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}");
+        let bar = is_terminal().then(ProgressBar::new_spinner);
+        if let (Some(bar), Ok(style)) = (&bar, style) {
+            bar.set_style(style);
+            bar.enable_steady_tick(std::time::Duration::from_millis(200));
+        }
+        Spinner(bar)
+    }
+
+    fn tell(&self, name: &str, description: &str) {
+        use std::io::Write;
+        let text = format!("{name}: {description}");
+        match &self.0 {
+            Some(bar) => bar.set_message(text),
+            None => drop(writeln!(std::io::stderr(), "{text}")),
+        }
+    }
+
+    /// Prints without tearing the spinner.
+    fn print(&self, print: impl FnOnce()) {
+        match &self.0 {
+            Some(bar) => bar.suspend(print),
+            None => print(),
+        }
+    }
+}
+
+impl Drop for Spinner {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
 }
 
 /// Names of the built-in scenes.

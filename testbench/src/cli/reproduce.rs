@@ -1,8 +1,6 @@
 //! `wheatstone reproduce`.
 
 use super::*;
-use indicatif::ProgressBar;
-use std::time::Duration;
 use wheatstone_golden::picture::write_file;
 use wheatstone_studies::reproduce::{json, run as run_experiments, Event, Summary};
 use wheatstone_studies::{Experiment, EXPERIMENTS};
@@ -39,30 +37,16 @@ fn parse_experiments(text: &str) -> Result<Experiments, String> {
 }
 
 pub(super) fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
-    let bar = is_terminal().then(ProgressBar::new_spinner);
-    let reports = run_experiments(args.experiments.0, &args.out, |event| match (event, &bar) {
-        (Event::Begin(experiment), Some(bar)) => {
-            bar.enable_steady_tick(Duration::from_millis(200));
-            bar.set_message(experiment.name);
-        }
-        (Event::Begin(experiment), None) => {
-            eprintln!("{}: {}", experiment.name, experiment.description)
-        }
-        (Event::End(report, time), bar) => {
-            let print = || {
-                say!("{}, {}: {time:.1?}\n", report.experiment, report.publication);
-                report.tables.iter().for_each(|table| say!("{table}"));
-                report.files.iter().for_each(|file| say!("file {}", file.display()));
-            };
-            match bar {
-                Some(bar) => bar.suspend(print),
-                None => print(),
-            }
-        }
+    let spinner = Spinner::new();
+    let reports = run_experiments(args.experiments.0, &args.out, |event| match event {
+        Event::Begin(experiment) => spinner.tell(experiment.name, experiment.description),
+        Event::End(report, time) => spinner.print(|| {
+            say!("{}, {}: {time:.1?}\n", report.experiment, report.publication);
+            report.tables.iter().for_each(|table| say!("{table}"));
+            report.files.iter().for_each(|file| say!("file {}", file.display()));
+        }),
     });
-    if let Some(bar) = &bar {
-        bar.finish_and_clear();
-    }
+    drop(spinner);
     let reports = reports?;
     let command = std::env::args().collect::<Vec<_>>().join(" ");
     let content = json(&reports, &command);
