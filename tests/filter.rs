@@ -2,7 +2,10 @@
 
 use wheatstone_golden::config::Division;
 use wheatstone_golden::pipeline::filter::divide;
-use wheatstone_golden::pipeline::filter_tables::{reciprocal, THREE_TERM, TWO_TERM};
+use wheatstone_golden::pipeline::filter_tables::{
+    reciprocal, THREE_TERM, THREE_TERM_SHIFT, TWO_TERM,
+};
+use wheatstone_studies::filter::{errors, mean, overflowing, truncated_white};
 
 /// The published exponents p, q for n = 1 to 29 (paper, section 5.6.1, as recomputed).
 const PUBLISHED: [(u32, u32); 29] = [
@@ -37,22 +40,10 @@ const PUBLISHED: [(u32, u32); 29] = [
     (5, 8),
 ];
 
-fn power(exponent: u32) -> f64 {
-    2f64.powi(-(exponent as i32))
-}
-
-fn errors(approximation: impl Fn(usize) -> f64) -> Vec<f64> {
-    (1..=29).map(|n| (approximation(n) * n as f64 - 1.0).abs()).collect()
-}
-
-fn mean(errors: &[f64]) -> f64 {
-    errors.iter().sum::<f64>() / errors.len() as f64
-}
-
 #[test]
 fn two_terms_have_the_published_errors() {
     assert_eq!(TWO_TERM[1..], PUBLISHED);
-    let errors = errors(|n| power(TWO_TERM[n].0) + power(TWO_TERM[n].1));
+    let errors = errors(Division::TwoTerm);
     assert_eq!(errors.iter().sum::<f64>(), 305.0 / 256.0);
     assert!((mean(&errors) - 0.041_082_974_137_931_036).abs() < 1e-12);
     assert!((mean(&errors[1..]) - 0.042_550_223_214_285_71).abs() < 1e-12);
@@ -63,28 +54,18 @@ fn two_terms_have_the_published_errors() {
 
 #[test]
 fn three_terms_have_the_expected_errors() {
-    let errors = errors(|n| {
-        let (p, q, r) = THREE_TERM[n];
-        power(p) + power(q) + power(r)
-    });
+    let errors = errors(Division::ThreeTerm);
     assert!(errors.iter().all(|&e| e <= 0.0625) && errors.contains(&0.0625));
     assert!((mean(&errors) - 0.012_745_8).abs() < 5e-8);
+    let sorted = |&(p, q, r): &(u32, u32, u32)| p <= q && q <= r && r <= THREE_TERM_SHIFT;
+    assert!(THREE_TERM.iter().all(sorted));
 }
 
 #[test]
 fn white_overflows_where_expected_and_saturates() {
-    let sum = |n: u32| {
-        let (p, q) = TWO_TERM[n as usize];
-        let white = 255 * n;
-        ((white << (8 - p)) + (white << (8 - q)) + 128) >> 8
-    };
-    let overflowing: Vec<u32> = (1..=29).filter(|&n| sum(n) > 255).collect();
-    assert_eq!(overflowing, [9, 11, 13, 17, 18, 22, 23, 26, 29]);
-    // Truncated, as the published figure is: 286.9 at n = 9.
-    let truncated =
-        |n: u32| ((255 * n) >> TWO_TERM[n as usize].0) + ((255 * n) >> TWO_TERM[n as usize].1);
-    assert_eq!((1..=29).map(truncated).max(), Some(286));
-    for n in overflowing {
+    assert_eq!(overflowing(), [9, 11, 13, 17, 18, 22, 23, 26, 29]);
+    assert_eq!((1..=29).map(truncated_white).max(), Some(286));
+    for n in overflowing() {
         assert_eq!(divide(Division::TwoTerm, 255 * n, n), 255);
     }
     for n in [1, 2, 4, 8, 16] {
@@ -93,6 +74,7 @@ fn white_overflows_where_expected_and_saturates() {
             255,
             "two truncated shifts would give 254"
         );
+        assert_eq!(truncated_white(n), 254);
     }
 }
 

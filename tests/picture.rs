@@ -39,10 +39,15 @@ fn all_composites_are_written() {
     let views = Views { left: &left, right: &right };
     for composite in Composite::ALL {
         let path = folder.path().join(format!("{}.png", composite.name()));
-        composite.write(&path, &views).expect("written");
+        composite.write(&path, &views, None).expect("written");
         let picture = image::open(&path).expect("a picture").into_rgb8();
-        let wide = matches!(composite, Composite::Parallel | Composite::Crossed);
-        assert_eq!(picture.dimensions(), (if wide { 64 } else { 32 }, 24));
+        let size = match composite {
+            Composite::Parallel | Composite::Crossed => (64, 24),
+            Composite::Triplet => (96, 24),
+            Composite::FrameSequential => (32, 48),
+            _ => (32, 24),
+        };
+        assert_eq!(picture.dimensions(), size);
     }
     let crossed = image::open(folder.path().join("crossed.png")).expect("a picture").into_rgb8();
     assert_eq!(crossed.get_pixel(0, 5), right.get_pixel(0, 5));

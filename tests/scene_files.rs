@@ -117,8 +117,11 @@ fn files_that_cannot_be_read_are_named() {
         assert!(error(name).starts_with(&format!("{name}: cannot be read: ")), "{}", error(name));
     }
     let unknown = error("teapto");
-    assert!(unknown.contains("teapto") && unknown.contains("teapot, room, ramp"), "{unknown}");
-    assert!(error("mesh.stl").contains(".obj or .json"));
+    assert!(
+        unknown.contains("teapto") && unknown.contains("teapot, room, atoms, ramp"),
+        "{unknown}"
+    );
+    assert!(error("mesh.stl").contains(".obj, .json, .png, .txt or .grid"));
     let missing = open("teapot", None, Some(Path::new("/no/rig.json"))).unwrap_err().to_string();
     assert!(missing.starts_with("/no/rig.json: cannot be read"), "{missing}");
     let folder = Folder::new();

@@ -32,6 +32,8 @@ pub mod primary;
 #[cfg(feature = "std")]
 pub mod projection;
 #[cfg(feature = "std")]
+pub mod quality;
+#[cfg(feature = "std")]
 pub mod random;
 #[cfg(feature = "std")]
 pub mod record;

@@ -12,6 +12,7 @@ use crate::primary::{Counts, Primary, Sink};
 use crate::scene::Geometry;
 use crate::setup::{Options, Outline, Planner, Polygon};
 use crate::texture::{Lookup, Texture};
+use crate::work::{Meter, Unmetered};
 use std::borrow::Cow;
 
 /// How the second view is made.
@@ -80,20 +81,24 @@ impl Job<'_> {
 
     /// Draws both views directly, in view coordinates.
     pub fn direct(&self) -> [Frame; 2] {
+        Eye::BOTH.map(|eye| self.view(eye, &mut Unmetered))
+    }
+
+    /// Draws one view directly, in view coordinates.
+    pub fn view(&self, eye: Eye, meter: &mut impl Meter) -> Frame {
         let direct = Direct {
             formats: Formats::new(&self.config),
             textures: self.textures,
             lookup: self.lookup,
         };
-        Eye::BOTH.map(|eye| {
-            let mut frame = Frame::new(self.width, self.height, self.background);
-            pieces(self.polygons).for_each(|polygon| direct.draw(&polygon, eye, &mut frame));
-            if self.scissor != Scissor::default() {
-                // Pixels do not depend on each other: clearing these is dropping all that came there.
-                frame.clear_columns(|x| !self.scissor.contains(eye, x), self.background);
-            }
-            frame
-        })
+        let mut frame = Frame::new(self.width, self.height, self.background);
+        pieces(self.polygons)
+            .for_each(|polygon| direct.draw_metered(&polygon, eye, &mut frame, meter));
+        if self.scissor != Scissor::default() {
+            // Pixels do not depend on each other: clearing these is dropping all that came there.
+            frame.clear_columns(|x| !self.scissor.contains(eye, x), self.background);
+        }
+        frame
     }
 
     /// Sends the job's polygons through a primary pipeline into a sink.

@@ -5,12 +5,13 @@
 //! [`Unmetered`] it is compiled as if nothing were counted, which is the form that is timed; with
 //! [`Counted`] and [`Work`] every operation is noted.
 
+use serde::Serialize;
 use std::cell::Cell;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// Arithmetic that was done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Operations {
     /// Additions and subtractions.
     pub additions: u64,
@@ -196,7 +197,7 @@ impl Meter for Unmetered {
 }
 
 /// Work of an algorithm.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Work {
     /// Arithmetic.
     pub operations: Operations,

@@ -3,9 +3,14 @@
 //! An experiment is a function that returns a [`Report`]: tables of what is printed, what is correct
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
+pub mod compare;
+pub mod filter;
+pub mod height_field;
 pub mod nasa;
 pub mod plot;
+pub mod prepared;
 pub mod report;
+pub mod reproduce;
 pub mod timing;
 
 pub use report::{Check, Report, Row, Table, Verdict};
@@ -27,12 +32,8 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order they are run.
-pub const EXPERIMENTS: &[Experiment] = &[Experiment {
-    name: "nasa",
-    description:
-        "NASA 1992: table I, projection matrices, distance maps, the scene in every projection",
-    run: nasa::run,
-}];
+pub const EXPERIMENTS: &[Experiment] =
+    &[filter::EXPERIMENT, nasa::EXPERIMENT, height_field::EXPERIMENT];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]

@@ -6,7 +6,7 @@
 //! viewer's side in inches.
 
 use crate::plot::{self, Series};
-use crate::{Check, Report, Row, StudyError, Table};
+use crate::{Check, Experiment, Report, Row, StudyError, Table};
 use std::path::{Path, PathBuf};
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::{Eye, Formats};
@@ -42,8 +42,16 @@ const SUBTRACT: &str = "with SI = SD the denominator is d' + MAXD - SD, not + SD
 const TRIANGLES: &str = "the similar triangles give NCP/POT, not NCP/FCP";
 const LINEAR: &str = "1/d is affine in 1/d'; d is linear only where FCP MIND = NCP MAXD";
 
+/// The experiment.
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "nasa",
+    description:
+        "NASA 1992: table I, projection matrices, distance maps, the scene in every projection",
+    run,
+};
+
 /// Runs the experiment.
-pub fn run(folder: &Path) -> Result<Report, StudyError> {
+fn run(folder: &Path) -> Result<Report, StudyError> {
     let tables = vec![
         fields_of_view(),
         matrices("Appendix A: the asymptotic matrix (A9)", &asymptotic()),
@@ -375,7 +383,7 @@ fn picture(folder: &Path, kind: Kind) -> Result<PathBuf, StudyError> {
     let job = Job::of(&geometry, config, Options::new(&config), Lookup::Bilinear);
     let [left, right] = job.direct().map(|frame| frame_picture(&frame));
     let file = folder.join(format!("room_{}.png", kind.name()));
-    Composite::Parallel.write(&file, &Views { left: &left, right: &right })?;
+    Composite::Parallel.write(&file, &Views { left: &left, right: &right }, None)?;
     Ok(file)
 }
 

@@ -57,7 +57,8 @@ pub fn lines(
         file: file.to_owned(),
         source: std::io::Error::other(error.to_string()),
     })?;
-    write_file(file, picture.as_bytes())
+    // It says nothing, and there are programs that fill curves for it.
+    write_file(file, picture.replace(" opacity=\"1\"", "").as_bytes())
 }
 
 type Drawn = Result<(), Box<dyn std::error::Error>>;

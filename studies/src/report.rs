@@ -2,11 +2,12 @@
 
 use comfy_table::{presets, ContentArrangement};
 use serde::Serialize;
+use serde_json::{json, Value};
 use std::fmt;
 use std::path::PathBuf;
 
 /// What an experiment found.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Name of the experiment.
     pub experiment: String,
@@ -19,7 +20,7 @@ pub struct Report {
 }
 
 /// One table, or the figures that belong together.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default)]
 pub struct Table {
     /// What it shows, with the place in the publication.
     pub title: String,
@@ -98,9 +99,21 @@ impl Row {
         self
     }
 
+    /// A figure that is not printed, but follows from what is.
+    pub fn expected(mut self, expected: f64) -> Row {
+        self.corrected = Some(expected);
+        self
+    }
+
     /// A printed figure that should be another.
     pub fn corrected(mut self, corrected: f64, erratum: &'static str) -> Row {
         (self.corrected, self.erratum) = (Some(corrected), Some(erratum));
+        self
+    }
+
+    /// Names an erratum that the figure shows.
+    pub fn because(mut self, erratum: &'static str) -> Row {
+        self.erratum = Some(erratum);
         self
     }
 
@@ -139,10 +152,33 @@ impl Row {
 }
 
 impl Report {
+    /// All its figures.
+    pub fn rows(&self) -> impl Iterator<Item = &Row> {
+        self.tables.iter().flat_map(|table| &table.rows)
+    }
+
     /// Figures that do not hold.
     pub fn differing(&self) -> impl Iterator<Item = &Row> {
-        let rows = self.tables.iter().flat_map(|table| &table.rows);
-        rows.filter(|row| row.verdict() == Verdict::Differs)
+        self.rows().filter(|row| row.verdict() == Verdict::Differs)
+    }
+
+    /// The report as JSON, with the verdict of every figure.
+    pub fn json(&self) -> Value {
+        let row = |row: &Row| {
+            let mut value = json!(row);
+            value["verdict"] = json!(row.verdict());
+            value
+        };
+        let table = |table: &Table| {
+            let rows: Vec<Value> = table.rows.iter().map(row).collect();
+            json!({ "title": table.title, "rows": rows })
+        };
+        json!({
+            "experiment": self.experiment,
+            "publication": self.publication,
+            "tables": self.tables.iter().map(table).collect::<Vec<_>>(),
+            "files": self.files,
+        })
     }
 }
 

@@ -2,7 +2,6 @@
 //! tables in the pages of `docs/`.
 
 use crate::cli;
-use crate::quality::Quality;
 use crate::settings::{SettingError, Settings};
 use std::fmt::Write;
 use std::path::Path;
@@ -11,6 +10,7 @@ use wheatstone_golden::config::Config;
 use wheatstone_golden::document::interface_tables;
 use wheatstone_golden::formats::{Eye, Formats};
 use wheatstone_golden::header::formats_header;
+use wheatstone_golden::quality::Quality;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::scene::{self, SceneError};
 use wheatstone_golden::setup::{Options, Plan, Planner, Row};

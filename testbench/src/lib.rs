@@ -21,7 +21,6 @@ mod model;
 mod outcome;
 pub mod pack;
 mod ports;
-pub mod quality;
 pub mod regression;
 pub mod settings;
 mod shim;

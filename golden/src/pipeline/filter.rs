@@ -90,3 +90,20 @@ fn shifted_sum<const N: usize>(a: u32, fraction: u32, exponents: [u32; N]) -> u3
     let sum: u32 = exponents.iter().map(|e| a << (fraction - e)).sum();
     (sum + (1 << (fraction - 1))) >> fraction
 }
+
+/// What `n` values (1 to 29) are multiplied by instead of being divided by n: 2^-p + 2^-q for two
+/// terms (paper, equation 1), 2^-p + 2^-q + 2^-r for three, and the exact division's reciprocal.
+pub fn factor(division: Division, n: u32) -> f64 {
+    let power = |exponent: u32| 1.0 / f64::from(1u32 << exponent);
+    match division {
+        Division::TwoTerm => {
+            let (p, q) = TWO_TERM[n as usize];
+            power(p) + power(q)
+        }
+        Division::ThreeTerm => {
+            let (p, q, r) = THREE_TERM[n as usize];
+            power(p) + power(q) + power(r)
+        }
+        Division::Exact => f64::from(reciprocal(n)) * power(RECIPROCAL_SHIFT),
+    }
+}

@@ -110,10 +110,28 @@ impl Camera {
         1.0 + p[2] / self.viewing_distance
     }
 
+    /// z of the ends of what is drawn.
+    pub fn depth_range(&self) -> [f64; 2] {
+        [self.lenses[0].range[0], self.lenses[self.lenses.len() - 1].range[1]]
+    }
+
+    /// What lies behind the near and before the far end of what is drawn.
+    pub fn depth_planes(&self) -> [HalfSpace; 2] {
+        planes(self.depth_range())
+    }
+
     /// Whether both eyes see the same rows, so that polygons may be cut in common there.
     pub fn is_level(&self) -> bool {
         self.level
     }
+}
+
+/// The half spaces behind the nearer and before the farther of two z.
+fn planes([near, far]: [f64; 2]) -> [HalfSpace; 2] {
+    [
+        HalfSpace { normal: [0.0, 0.0, 1.0], offset: -near },
+        HalfSpace { normal: [0.0, 0.0, -1.0], offset: far },
+    ]
 }
 
 impl Lens {
@@ -187,11 +205,7 @@ impl Lens {
 
     /// Behind the near and before the far end.
     pub fn depth_planes(&self) -> [HalfSpace; 2] {
-        let [near, far] = self.range;
-        [
-            HalfSpace { normal: [0.0, 0.0, 1.0], offset: -near },
-            HalfSpace { normal: [0.0, 0.0, -1.0], offset: far },
-        ]
+        planes(self.depth_range())
     }
 
     /// Left, right, top and bottom of an eye's window with its guard band.

@@ -95,7 +95,7 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// Neither a built-in scene nor a file of a known kind.
-    #[error("scene {name}: expected a file ending in .obj or .json, or one of: {}", .builtin.join(", "))]
+    #[error("scene {name}: expected a file ending in .obj, .json, .png, .txt or .grid, or one of: {}", .builtin.join(", "))]
     Unknown {
         /// What was asked for.
         name: String,
@@ -143,4 +143,15 @@ pub fn read(file: &Path) -> Result<Vec<u8>, SceneError> {
         return Err(wrong(std::io::Error::other("not a regular file")));
     }
     std::fs::read(file).map_err(wrong)
+}
+
+/// The text of a file, without the byte order mark that some editors put in front.
+pub fn read_text(file: &Path) -> Result<String, SceneError> {
+    let bytes = read(file)?;
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
+        InputError::new(file, line, "file", "UTF-8 text", "other bytes")
+    })?;
+    Ok(text.into())
 }

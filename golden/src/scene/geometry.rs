@@ -119,7 +119,7 @@ impl Scene {
     }
 
     /// Refuses what could not be drawn.
-    fn check(&self) -> Result<(), SceneError> {
+    pub(super) fn check(&self) -> Result<(), SceneError> {
         self.rig.check()?;
         let lit = self.lighting.is_some();
         let mut ids = 0;

@@ -18,7 +18,7 @@
 //!
 //! Nothing is lit. Triangles without area are legal and draw nothing.
 
-use super::error::{read, InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT, SIZE_LIMIT};
+use super::error::{read_text, InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT, SIZE_LIMIT};
 use super::locate::Locator;
 use super::{Colours, Material, Mesh, Rig, Scene};
 use serde::de::{DeserializeOwned, Error, Unexpected, Visitor};
@@ -137,17 +137,7 @@ fn in_words(expected: &str) -> &str {
 
 /// Reads a scene file.
 pub fn load(file: &Path) -> Result<Scene, SceneError> {
-    let bytes = read(file)?;
-    let text = std::str::from_utf8(without_mark(&bytes)).map_err(|e| {
-        let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
-        InputError::new(file, line, "file", "UTF-8 text", "other bytes")
-    })?;
-    scene(file, text)
-}
-
-/// A text without the byte order mark that some editors put in front.
-pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
-    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+    scene(file, &read_text(file)?)
 }
 
 /// Makes a scene of a scene file's text; `file` is its name in messages.

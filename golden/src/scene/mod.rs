@@ -7,6 +7,7 @@
 //!
 //! - code: the built-in scenes, [`builtin`];
 //! - a mesh, [`obj`]: centred and fitted at the screen plane, lit;
+//! - a grid of heights, [`height_field`]: placed in the same way;
 //! - a file of its own format, [`json`]: drawn as it stands.
 //!
 //! [`open`] finds out which. A rig file ([`rig_file`]) may move the eyes and change the screen.
@@ -18,16 +19,19 @@ mod camera;
 pub mod clip;
 mod error;
 mod geometry;
+pub mod height_field;
 pub mod json;
 pub mod light;
 mod locate;
 mod mesh;
 pub mod obj;
 mod obj_check;
+pub mod place;
 mod rig;
 pub mod rig_file;
 mod shading;
 pub mod vector;
+pub mod wires;
 
 pub use camera::{Camera, Lens, Snapped};
 pub use error::*;
@@ -80,7 +84,8 @@ impl Scene {
     }
 }
 
-/// Opens a built-in scene by its name, or a file that ends in `.obj` or `.json`.
+/// Opens a built-in scene by its name, or a file that ends in `.obj`, `.json`, or, with a grid of
+/// heights, in `.png`, `.txt` or `.grid`.
 ///
 /// `size` is the size of the views in pixels; it goes before that of the rig file, which goes
 /// before that of the scene. Where the size differs from the scene's own and the rig file does
@@ -111,6 +116,13 @@ pub fn open_projected(
             return obj::load(path, empty, &rig_file.placement());
         }
         Some("json") => json::load(path)?,
+        Some(e) if height_field::is_grid(e) => {
+            return field(&height_field::load(path)?, size, &rig_file, projection);
+        }
+        // The one built-in scene that a rig file may place.
+        _ if name == builtin::ATOMS => {
+            return field(&height_field::atoms(), size, &rig_file, projection);
+        }
         _ => {
             let [width, height] = size.unwrap_or(DEFAULT_SIZE);
             builtin::scene(name, width, height)?
@@ -118,4 +130,17 @@ pub fn open_projected(
     };
     rig_file.apply(&mut scene, size, projection)?;
     Ok(scene)
+}
+
+/// A height field with a rig file's changes.
+fn field(
+    grid: &height_field::HeightGrid,
+    size: Option<[u32; 2]>,
+    rig_file: &RigFile,
+    projection: Option<Kind>,
+) -> Result<Scene, SceneError> {
+    let [width, height] = DEFAULT_SIZE;
+    let mut empty = height_field::empty_scene(width, height);
+    rig_file.apply(&mut empty, size, projection)?;
+    Ok(height_field::scene(grid, empty, &rig_file.placement()))
 }

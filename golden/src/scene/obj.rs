@@ -16,8 +16,8 @@
 use super::error::{InputError, SceneError};
 use super::mesh::Colours;
 use super::obj_check::{check, TextureName};
-use super::rig_file::Placement;
-use super::vector::{add, rotate, scale, sub, unit, Vec3};
+use super::place::{place, Placement};
+use super::vector::{scale, unit, Vec3};
 use super::{Lighting, Material, Mesh, Rig, Scene, DEFAULT_SIZE};
 use crate::formats::Rgba;
 use crate::texture::Texture;
@@ -178,29 +178,4 @@ fn load_texture(name: &TextureName) -> Result<Texture, InputError> {
         height: picture.height(),
         texels: picture.pixels().map(|p| Rgba(p.0)).collect(),
     })
-}
-
-/// Turns, centres, scales and moves the meshes.
-fn place(scene: &mut Scene, placement: &Placement) {
-    // Mirrored in z, a turn about x or y goes the other way.
-    let [x, y, z] = placement.rotation;
-    let turned = |p: Vec3| rotate(rotate(rotate(p, 1, -y), 0, -x), 2, z);
-    scene.meshes.iter_mut().for_each(|mesh| mesh.transform(turned, turned));
-    let mut least = [f64::MAX; 3];
-    let mut most = [f64::MIN; 3];
-    for position in scene.meshes.iter().flat_map(|mesh| &mesh.positions) {
-        least = std::array::from_fn(|k| least[k].min(position[k]));
-        most = std::array::from_fn(|k| most[k].max(position[k]));
-    }
-    let Some(fit) = placement.fit else {
-        let moved = |p: Vec3| add(p, placement.offset);
-        return scene.meshes.iter_mut().for_each(|mesh| mesh.transform(moved, |n| n));
-    };
-    let centre = scale(add(least, most), 0.5);
-    let longest = sub(most, least).into_iter().fold(0.0, f64::max);
-    let screen = f64::from(scene.width.min(scene.height)) / scene.rig.pixels_per_unit;
-    // A mesh that is one point stays one.
-    let factor = if longest > 1e-100 { fit * screen / longest } else { 1.0 };
-    let moved = |p: Vec3| add(scale(sub(p, centre), factor), placement.offset);
-    scene.meshes.iter_mut().for_each(|mesh| mesh.transform(moved, |n| n));
 }

@@ -14,15 +14,19 @@
 //! | `projection` | name of a projection, see `wheatstone list`; `--projection` goes before it | `"two-centres"` |
 //! | `translate`, `asymptotic`, `piecewise` | objects with the parameters of these projections, see below; used where the projection is theirs | |
 //! | `background` | `[red, green, blue]`, 0 to 255 | `[40, 44, 52]` |
-//! | `placement` | object, see below; concerns `.obj` meshes only | |
+//! | `placement` | object, see below; concerns meshes and height fields | |
 //! | `light` | object, see below; concerns scenes that are lit | |
 //!
 //! `placement`: the mesh is turned by `rotation`, `[x, y, z]` in degrees, about its y axis first,
 //! then x, then z (right-hand rule in the mesh's own, right-handed coordinates: z towards the
-//! viewer; default `[0, 0, 0]`); its
-//! bounding box is centred on the screen and its longest side scaled to `fit` (default 0.8) times
-//! the smaller side of the screen, and it is moved by `offset` (`[x, y, z]` in units, z away from
+//! viewer; default `[0, 0, 0]`), then so that it is seen from the direction of the point `eye` in
+//! these coordinates with the direction `up` upright, if there is
+//! `"view": {"eye": [x, y, z], "up": [x, y, z]}`; its
+//! bounding box is centred on the screen and its longest side scaled to `fit` (default 0.8, of a
+//! height field 1.15) times the smaller side of the screen, and it is moved by `offset` (`[x, y, z]` in units, z away from
 //! the viewer; default `[0, 0, 0]`). With `"fit": null` it is neither centred nor scaled.
+//! The heights of a height field are first multiplied so that their range is `relief` (default 0.1;
+//! `null` leaves them as they are) times its longer side.
 //!
 //! `translate`: the display from which `eye_separation` and `viewing_distance` follow, instead of
 //! being given: `eye_distance`, `viewing_distance` and `dot_pitch` in inches or any other unit, all
@@ -46,14 +50,15 @@
 //! `[0.25, 0.25, 0.25]`). What is not given takes its default, and all other lights go.
 
 use super::error::{check_size, InputError, RigError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT};
-use super::json::{parse, without_mark, Channel};
+use super::json::{parse, Channel};
 use super::light::{Light, Lighting, Source};
 use super::locate::Locator;
+use super::place::Placement;
 use super::rig::{check_length, Rig};
 use super::vector::Vec3;
 use super::Scene;
 use crate::projection::{Asymptotic, Device, Kind, Piecewise, Projection};
-use serde::{Deserialize, Deserializer};
+use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
 /// A rig file as it stands.
@@ -82,31 +87,6 @@ pub struct RigFile {
     text: String,
 }
 
-/// How a mesh is placed.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Placement {
-    /// Degrees about the mesh's x, y and z axes; y comes first, then x, then z.
-    pub rotation: [f64; 3],
-    /// Longest side of the bounding box, in smaller sides of the screen; none leaves the mesh
-    /// where it is.
-    #[serde(deserialize_with = "required_option")]
-    pub fit: Option<f64>,
-    /// Movement after fitting.
-    pub offset: Vec3,
-}
-
-/// Tells `null` from a field that is not there.
-fn required_option<'de, D: Deserializer<'de>>(value: D) -> Result<Option<f64>, D::Error> {
-    Option::deserialize(value)
-}
-
-impl Default for Placement {
-    fn default() -> Placement {
-        Placement { rotation: [0.0; 3], fit: Some(0.8), offset: [0.0; 3] }
-    }
-}
-
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LightFile {
@@ -118,7 +98,7 @@ struct LightFile {
 impl RigFile {
     /// Reads a rig file.
     pub fn load(file: &Path) -> Result<RigFile, SceneError> {
-        let text = String::from_utf8_lossy(without_mark(&super::error::read(file)?)).into_owned();
+        let text = super::error::read_text(file)?;
         RigFile::read(file, text)
     }
 
@@ -165,9 +145,28 @@ impl RigFile {
         };
         vector("placement.rotation", Some(self.placement.rotation), -360.0, 360.0)?;
         vector("placement.offset", Some(self.placement.offset), -limit, limit)?;
-        if let Some(fit) = self.placement.fit.filter(|fit| !(0.001..=1000.0).contains(fit)) {
+        if let Some(fit) =
+            self.placement.fit.flatten().filter(|fit| !(0.001..=1000.0).contains(fit))
+        {
             let expected = "0.001 to 1000 or null";
             return Err(self.wrong("placement.fit", expected, fit.to_string()).into());
+        }
+        if let Some(relief) = self.placement.relief.filter(|n| !(0.0..=1000.0).contains(n)) {
+            let expected = "0 to 1000 or null";
+            return Err(self.wrong("placement.relief", expected, relief.to_string()).into());
+        }
+        if let Some(view) = &self.placement.view {
+            vector("placement.view.eye", Some(view.eye), -limit, limit)?;
+            vector("placement.view.up", Some(view.up), -limit, limit)?;
+            if view.eye == [0.0; 3] {
+                let expected = "a point other than the origin, which is looked at";
+                return Err(self.wrong("placement.view.eye", expected, "the origin".into()).into());
+            }
+            if view.axes().is_none() {
+                let expected = format!("a direction across the line of sight to {:?}", view.eye);
+                let found = format!("{:?}", view.up);
+                return Err(self.wrong("placement.view.up", &expected, found).into());
+            }
         }
         if let Some(light) = &self.light {
             vector("light.direction", light.direction, -limit, limit)?;

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::regression::{self, Entry, Event, NamedScene, Plan, Waves};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Mutex;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::picture::{frame_picture, write_file, write_png};

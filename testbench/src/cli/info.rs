@@ -4,6 +4,7 @@ use super::*;
 use crate::settings::RUN_PARAMETERS;
 use crate::tools::Doctor;
 use wheatstone_golden::config::{Config, Parameter, PARAMETERS};
+use wheatstone_studies::EXPERIMENTS;
 
 #[derive(Debug, Args)]
 pub(super) struct ListArgs {
@@ -41,13 +42,17 @@ pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
     for parameter in &RUN_PARAMETERS {
         say!("  {}={}\n      {}", parameter.name, parameter.values.join("|"), parameter.help);
     }
-    say!("\nScenes (--scene NAME), or a file ending in .obj or .json");
+    say!("\nScenes (--scene NAME), or a file: .obj mesh, .json scene, or .png, .txt or .grid heights");
     for scene in &builtin::SCENES {
         say!("  {:<20}{}", scene.name, scene.description);
     }
     say!("\nProjections (--projection NAME, or in a rig file), the first is the usual one");
     for kind in Kind::ALL {
         say!("  {:<20}{}", kind.name(), kind.description());
+    }
+    say!("\nExperiments (wheatstone reproduce NAME)");
+    for experiment in EXPERIMENTS {
+        say!("  {:<20}{}", experiment.name, experiment.description);
     }
     Ok(OK)
 }
@@ -67,6 +72,9 @@ fn list_json() -> serde_json::Value {
         "projections": Kind::ALL.map(|kind| serde_json::json!({
             "name": kind.name(), "description": kind.description(),
         })),
+        "experiments": EXPERIMENTS.iter().map(|e| serde_json::json!({
+            "name": e.name, "description": e.description,
+        })).collect::<Vec<_>>(),
     })
 }
 

@@ -18,10 +18,12 @@ macro_rules! tell {
     }};
 }
 
+mod compare;
 mod cosim;
 mod generate;
 mod info;
 mod render;
+mod reproduce;
 mod vectors;
 mod waves;
 
@@ -32,6 +34,7 @@ use crate::settings::{SettingError, Settings};
 use crate::tools::{ToolError, Toolchain};
 use crate::{BuildError, Builder};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -39,10 +42,12 @@ use thiserror::Error;
 use wheatstone_golden::formats::Formats;
 use wheatstone_golden::picture::WriteError;
 use wheatstone_golden::projection::Kind;
-use wheatstone_golden::scene::{self, builtin, Cull, Geometry, SceneError};
+use wheatstone_golden::scene::wires::wire_frame;
+use wheatstone_golden::scene::{self, builtin, Cull, Geometry, Scene, SceneError};
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
+use wheatstone_studies::StudyError;
 
 /// Everything worked and was equal.
 const OK: u8 = 0;
@@ -83,7 +88,11 @@ enum Command {
     Waves(waves::WavesArgs),
     /// Draw a scene in stereo with the golden model
     Render(render::RenderArgs),
-    /// List targets, configurations, parameters, scenes and projections
+    /// Make the second view in every way and compare work, time and errors
+    Compare(compare::CompareArgs),
+    /// Compute the publications' tables and figures anew
+    Reproduce(reproduce::ReproduceArgs),
+    /// List targets, configurations, parameters, scenes, projections and experiments
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
     Doctor(info::DoctorArgs),
@@ -100,7 +109,7 @@ struct Common {
     /// Change one parameter (see `wheatstone list`); may be repeated
     #[arg(long = "param", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
-    /// Built-in scene, or a file ending in .obj or .json
+    /// Built-in scene, or a file ending in .obj, .json, .png, .txt or .grid
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
     /// Size of each view in pixels
@@ -116,6 +125,9 @@ struct Common {
     /// Which faces to leave out
     #[arg(long, value_enum, default_value = "none")]
     cull: CullChoice,
+    /// Draw the edges of the polygons, one pixel thick, instead of the polygons
+    #[arg(long)]
+    wire: bool,
 }
 
 /// Options of the commands that simulate or make vectors.
@@ -164,6 +176,8 @@ enum Failure {
     #[error(transparent)]
     Scene(#[from] SceneError),
     #[error(transparent)]
+    Study(#[from] StudyError),
+    #[error(transparent)]
     Write(#[from] WriteError),
     #[error(transparent)]
     Pack(#[from] PackError),
@@ -197,6 +211,8 @@ pub fn main() -> ExitCode {
         Command::Check(args) => vectors::check(args),
         Command::Waves(args) => waves::run(args),
         Command::Render(args) => render::run(args),
+        Command::Compare(args) => compare::run(args),
+        Command::Reproduce(args) => reproduce::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
         Command::Generate(args) => generate::run(args),
@@ -213,14 +229,24 @@ impl Common {
         Ok(Settings::new(&self.config, &self.parameters)?)
     }
 
-    /// A scene's polygons for these settings.
+    /// A scene from the eyes that the command line chose.
+    fn open(&self, name: &str, size: Option<[u32; 2]>) -> Result<Scene, Failure> {
+        let scene = scene::open_projected(name, size, self.rig.as_deref(), self.projection)?;
+        Ok(if self.wire { wire_frame(&scene)? } else { scene })
+    }
+
+    /// The polygons of the scene of that name.
     fn geometry(
         &self,
         name: &str,
         size: Option<[u32; 2]>,
         settings: &Settings,
     ) -> Result<Geometry, Failure> {
-        let scene = scene::open_projected(name, size, self.rig.as_deref(), self.projection)?;
+        self.geometry_of(&self.open(name, size)?, settings)
+    }
+
+    /// The polygons of a scene for these settings.
+    fn geometry_of(&self, scene: &Scene, settings: &Settings) -> Result<Geometry, Failure> {
         let cull = match self.cull {
             CullChoice::None => Cull::None,
             CullChoice::Back => Cull::Back,
@@ -250,6 +276,9 @@ impl Common {
         }
         if self.cull == CullChoice::Back {
             words.push("--cull back".into());
+        }
+        if self.wire {
+            words.push("--wire".into());
         }
         words
     }
@@ -312,6 +341,46 @@ fn output_folder(name: &str) -> PathBuf {
 /// Whether progress can be drawn over.
 fn is_terminal() -> bool {
     std::io::stderr().is_terminal()
+}
+
+/// Tells what is being worked on: beside a spinner in a terminal, a line each elsewhere.
+struct Spinner(Option<ProgressBar>);
+
+impl Spinner {
+    fn new() -> Spinner {
+        let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}");
+        let bar = is_terminal().then(ProgressBar::new_spinner);
+        if let (Some(bar), Ok(style)) = (&bar, style) {
+            bar.set_style(style);
+            bar.enable_steady_tick(std::time::Duration::from_millis(200));
+        }
+        Spinner(bar)
+    }
+
+    fn tell(&self, name: &str, description: &str) {
+        use std::io::Write;
+        let text = format!("{name}: {description}");
+        match &self.0 {
+            Some(bar) => bar.set_message(text),
+            None => drop(writeln!(std::io::stderr(), "{text}")),
+        }
+    }
+
+    /// Prints without tearing the spinner.
+    fn print(&self, print: impl FnOnce()) {
+        match &self.0 {
+            Some(bar) => bar.suspend(print),
+            None => print(),
+        }
+    }
+}
+
+impl Drop for Spinner {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
 }
 
 /// Names of the built-in scenes.

@@ -1,11 +1,14 @@
 //! `wheatstone render`.
 
 use super::*;
-use crate::quality::Quality;
 use crate::regression::drawn_line;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::NO_ID;
-use wheatstone_golden::picture::{frame_picture, id_picture, write_png, Composite, Views};
+use wheatstone_golden::picture::{
+    frame_picture, id_picture, print_resolution, write_png, Composite, Views,
+};
+use wheatstone_golden::quality::Quality;
+use wheatstone_golden::scene::height_field::EYE_SEPARATION;
 
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
@@ -17,8 +20,13 @@ pub(super) struct RenderArgs {
     out: PathBuf,
     /// Composites of both views to write too
     #[arg(long, value_delimiter = ',', value_name = "KIND", value_parser = parse_composite,
-        help = "Composites to write too: anaglyph, parallel, crossed, interleaved, wiggle")]
+        help = "Composites to write too: anaglyph, parallel, crossed, triplet, interleaved \
+        (field-sequential), frame-sequential, wiggle")]
     stereo: Vec<Composite>,
+    /// Dots per inch that composites have in print [default of parallel, crossed and triplet: so
+    /// that points at infinity are 2.5 inches apart]
+    #[arg(long, value_name = "N", value_parser = parse_dpi)]
+    dpi: Option<f64>,
     #[command(flatten)]
     common: Common,
 }
@@ -38,10 +46,16 @@ fn parse_composite(text: &str) -> Result<Composite, String> {
     Composite::named(text).ok_or_else(|| format!("there are: {names}"))
 }
 
+fn parse_dpi(text: &str) -> Result<f64, String> {
+    let dots = text.parse().ok().filter(|dots| (1.0..=100_000.0).contains(dots));
+    dots.ok_or_else(|| "expected dots per inch, a number from 1 to 100000".into())
+}
+
 pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
     let name = args.common.scene.as_deref().unwrap_or("teapot");
-    let geometry = args.common.geometry(name, args.common.size, &settings)?;
+    let scene = args.common.open(name, args.common.size)?;
+    let geometry = args.common.geometry_of(&scene, &settings)?;
     // Before the work, so that a folder that cannot be made costs none.
     std::fs::create_dir_all(&args.out)
         .map_err(|source| WriteError { file: args.out.clone(), source })?;
@@ -80,7 +94,12 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     }
     for composite in &args.stereo {
         let file = args.out.join(format!("{}.png", composite.name()));
-        composite.write(&file, &Views { left: &pictures[0], right: &pictures[1] })?;
+        let free = composite.is_side_by_side().then(|| {
+            let far = scene.rig.eye_separation * scene.rig.pixels_per_unit;
+            print_resolution(pictures[0].width(), far, EYE_SEPARATION)
+        });
+        let views = Views { left: &pictures[0], right: &pictures[1] };
+        composite.write(&file, &views, args.dpi.or(free))?;
         say!("image {}", file.display());
     }
     Ok(OK)

@@ -1,7 +1,7 @@
 //! The built-in scenes.
 //!
 //! `teapot` and `room` are pictures to look at, in centimetres in front of a screen of at least
-//! 32 × 24 cm. The others are small and each show one thing; their lengths are pixels of a
+//! 32 × 24 cm, `atoms` is a height field, in inches. The others are small and each show one thing; their lengths are pixels of a
 //! 640 × 480 picture, scaled with the size, except in `ties`, where they are pixels at any size.
 
 mod diagnostic;
@@ -12,9 +12,13 @@ mod shapes;
 mod teapot;
 
 use super::error::{check_size, SceneError, SIZE_LIMIT};
-use super::{Rig, Scene};
+use super::place::Placement;
+use super::{height_field, Rig, Scene};
 
 pub use teapot::{teapot, DEFAULT_LEVEL};
+
+/// Name of the height field.
+pub const ATOMS: &str = "atoms";
 
 /// A scene made in code.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +31,7 @@ pub struct Builtin {
 }
 
 /// All built-in scenes.
-pub const SCENES: [Builtin; 9] = [
+pub const SCENES: [Builtin; 10] = [
     Builtin {
         name: "teapot",
         description: "the Utah teapot, from its 32 patches: 6,320 smooth, glossy triangles",
@@ -38,6 +42,11 @@ pub const SCENES: [Builtin; 9] = [
         description:
             "a textured room with glossy and mirroring things before and behind the screen",
         build: room::scene,
+    },
+    Builtin {
+        name: ATOMS,
+        description: "atoms on a 200 x 200 height field: 79,202 flat-shaded triangles",
+        build: atoms,
     },
     Builtin {
         name: "ramp",
@@ -86,6 +95,12 @@ pub fn scene(name: &str, width: u32, height: u32) -> Result<Scene, SceneError> {
     })?;
     check_size(width, height, SIZE_LIMIT)?;
     Ok((builtin.build)(width, height))
+}
+
+/// The height field.
+fn atoms(width: u32, height: u32) -> Scene {
+    let empty = height_field::empty_scene(width, height);
+    height_field::scene(&height_field::atoms(), empty, &Placement::default())
 }
 
 /// An empty scene of which 32 × 24 cm of screen are in view.

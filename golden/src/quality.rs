@@ -1,11 +1,11 @@
 //! How far a derived pair of views is from direct rendering.
 
+use crate::formats::{Eye, Rgba};
+use crate::frame::{Frame, NO_ID};
+use crate::picture::{colour_picture, psnr};
+use crate::setup::Placement;
+use crate::stereo::Job;
 use std::fmt;
-use wheatstone_golden::formats::{Eye, Rgba};
-use wheatstone_golden::frame::{Frame, NO_ID};
-use wheatstone_golden::picture::{colour_picture, psnr};
-use wheatstone_golden::setup::Placement;
-use wheatstone_golden::stereo::Job;
 
 /// One view, derived, against the same view rendered directly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +51,18 @@ impl Quality {
             colours: count(&|n| colour(n) != direct.colour[n]),
             ids: count(&|n| id(n) != direct.id[n]),
             gaps: count(&|n| id(n) == NO_ID && direct.id[n] != NO_ID),
+        }
+    }
+
+    /// Two views together: mean of the squared errors, sums of the pixels.
+    pub fn together([a, b]: [Quality; 2]) -> Quality {
+        let error = |quality: Quality| 10f64.powf(-quality.decibels / 10.0);
+        Quality {
+            decibels: -10.0 * ((error(a) + error(b)) / 2.0).log10(),
+            pixels: a.pixels + b.pixels,
+            colours: a.colours + b.colours,
+            ids: a.ids + b.ids,
+            gaps: a.gaps + b.gaps,
         }
     }
 

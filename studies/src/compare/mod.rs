@@ -1,0 +1,251 @@
+//! Ways to make the second view side by side: what each costs, and how wrong it is.
+//!
+//! All methods draw the same polygons: lit, projected, clipped and snapped for both eyes, which is
+//! not timed. The first view is the left one, drawn directly, and what is timed and counted is
+//! only what makes the right one ([`Timed`]). Errors are those of both views against direct
+//! rendering, because the pipeline derives some polygons for the one and some for the other eye.
+
+mod methods;
+
+pub use methods::METHODS;
+
+use crate::prepared::Prepared;
+use crate::timing::ratio;
+use serde_json::{json, Value};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use thiserror::Error;
+use wheatstone_golden::formats::Eye;
+use wheatstone_golden::frame::{Frame, NO_ID};
+use wheatstone_golden::picture::{
+    frame_picture, side_by_side, write_png, Rgb, RgbImage, WriteError,
+};
+use wheatstone_golden::quality::Quality;
+use wheatstone_golden::work::{Unmetered, Work};
+
+/// A way to make the second view.
+#[derive(Clone, Copy, Debug)]
+pub struct Method {
+    /// Its name in tables and of its error picture.
+    pub name: &'static str,
+    /// What it does, in one line.
+    pub description: &'static str,
+    /// Draws both views and counts.
+    pub draw: fn(&Prepared) -> Result<Pair, Unsuited>,
+    /// What is timed.
+    pub timed: Timed,
+}
+
+/// Both views, and what the second one took.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Left and right frame, in view coordinates.
+    pub frames: [Frame; 2],
+    /// Work for the second view.
+    pub work: Work,
+    /// Pixels that the method knows nothing about; none where it does not know of any.
+    pub holes: Option<u64>,
+}
+
+/// What is timed of a method, without counting. Only scenes that [`Method::draw`] can draw come
+/// here.
+#[derive(Clone, Copy, Debug)]
+pub enum Timed {
+    /// The right view, from polygons and from the left view as it was drawn directly.
+    Second(fn(&Prepared, &Frame) -> Frame),
+    /// Both views at once, less the left one by the same code.
+    Both {
+        /// Both views.
+        both: fn(&Prepared) -> Vec<Frame>,
+        /// The left view alone.
+        first: fn(&Prepared) -> Vec<Frame>,
+    },
+}
+
+/// A scene that a method cannot draw.
+#[derive(Clone, Debug, Error)]
+#[error("{0}")]
+pub struct Unsuited(pub String);
+
+/// What came of a method.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The method.
+    pub method: Method,
+    /// What was measured; or why it could not be.
+    pub result: Result<Measured, Unsuited>,
+}
+
+/// What was measured of a method.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Work for the second view.
+    pub work: Work,
+    /// Time of the second view over that of direct rendering.
+    pub time: f64,
+    /// Both views against direct rendering.
+    pub quality: Quality,
+    /// Pixels without a colour of their own.
+    pub holes: u64,
+    /// The error picture.
+    pub file: Option<PathBuf>,
+}
+
+/// Time that the rounds of one timing take together, about, if they are not very few.
+const ROUNDS_TIME: Duration = Duration::from_secs(1);
+
+/// Draws a scene by each method in turn; error pictures go into `out`, which exists. `tell` hears
+/// which method begins.
+pub fn compare(
+    prepared: &Prepared,
+    out: Option<&Path>,
+    mut tell: impl FnMut(&Method),
+) -> Result<Vec<Outcome>, WriteError> {
+    let job = prepared.job();
+    let start = Instant::now();
+    let direct = job.direct();
+    let rounds = ROUNDS_TIME.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6);
+    let rounds = rounds.clamp(7.0, 41.0) as usize;
+    let mut outcomes = Vec::new();
+    for method in METHODS {
+        tell(method);
+        let result = match (method.draw)(prepared) {
+            Err(unsuited) => Err(unsuited),
+            Ok(pair) => {
+                let file = out.map(|folder| folder.join(format!("{}.png", method.name)));
+                if let Some(file) = &file {
+                    let errors = [0, 1].map(|n| error_picture(&pair.frames[n], &direct[n]));
+                    write_png(file, &side_by_side(&[&errors[0], &errors[1]]))?;
+                }
+                let quality = Eye::BOTH
+                    .map(|e| Quality::of(&job, e, &pair.frames[e as usize], &direct[e as usize]));
+                let quality = Quality::together(quality);
+                Ok(Measured {
+                    work: pair.work,
+                    time: second_view_time(method, prepared, &direct[0], rounds),
+                    holes: pair.holes.unwrap_or(quality.gaps as u64),
+                    quality,
+                    file,
+                })
+            }
+        };
+        outcomes.push(Outcome { method: *method, result });
+    }
+    Ok(outcomes)
+}
+
+/// Time of a method's second view over that of direct rendering, in one run.
+fn second_view_time(method: &Method, prepared: &Prepared, first: &Frame, rounds: usize) -> f64 {
+    let direct = || prepared.job().view(Eye::Right, &mut Unmetered);
+    match method.timed {
+        Timed::Second(second) => ratio(rounds, || second(prepared, first), direct).median,
+        Timed::Both { both, first } => {
+            let both = ratio(rounds, || both(prepared), direct).median;
+            both - ratio(rounds, || first(prepared), direct).median
+        }
+    }
+}
+
+/// Direct rendering in faint grey; over it red where another polygon is shown, magenta where none
+/// is and there should be one, and yellow, the stronger the more it differs, where only the colour
+/// is another.
+pub fn error_picture(frame: &Frame, direct: &Frame) -> RgbImage {
+    let mut errors = frame_picture(direct);
+    for (n, pixel) in errors.pixels_mut().enumerate() {
+        let [shown, wanted] = [frame.colour[n], direct.colour[n]];
+        *pixel = Rgb(if frame.id[n] == NO_ID && direct.id[n] != NO_ID {
+            [255, 0, 255]
+        } else if frame.id[n] != direct.id[n] {
+            [255, 40, 40]
+        } else if shown != wanted {
+            let difference = (0..3).map(|k| shown[k].abs_diff(wanted[k])).max().unwrap_or(0);
+            let strength = 64 + difference.saturating_mul(8) / 4 * 3;
+            [strength, strength, 0]
+        } else {
+            let light: u16 = wanted.iter().map(|&n| u16::from(n)).sum();
+            [40 + (light / 9) as u8; 3]
+        });
+    }
+    errors
+}
+
+/// The outcomes as a table; a dash stands for what a method does not count.
+pub fn table(outcomes: &[Outcome]) -> String {
+    let mut table = comfy_table::Table::new();
+    table.load_preset(comfy_table::presets::UTF8_BORDERS_ONLY);
+    table.set_content_arrangement(comfy_table::ContentArrangement::Disabled);
+    table.set_header([
+        "",
+        "operations",
+        "pixels tested",
+        "beats",
+        "time",
+        "wrong polygon",
+        "wrong colour",
+        "holes",
+        "PSNR",
+    ]);
+    for Outcome { method, result } in outcomes {
+        let mut row = vec![method.name.to_string()];
+        match result {
+            Err(unsuited) => row.push(unsuited.to_string()),
+            Ok(measured) => row.extend(cells(measured)),
+        }
+        table.add_row(row);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(comfy_table::CellAlignment::Right);
+    }
+    table.to_string()
+}
+
+fn cells(measured: &Measured) -> [String; 8] {
+    let Measured { work, time, quality, holes, .. } = measured;
+    let counted = |n: u64| if n == 0 { "–".into() } else { Grouped(n).to_string() };
+    let share = |n: usize| {
+        format!("{} ({:.2} %)", Grouped(n as u64), 100.0 * n as f64 / quality.pixels.max(1) as f64)
+    };
+    [
+        counted(work.operations.all()),
+        counted(work.pixels_tested),
+        counted(work.beats),
+        format!("{time:.2}"),
+        share(quality.ids),
+        share(quality.colours),
+        Grouped(*holes).to_string(),
+        quality.ratio(),
+    ]
+}
+
+/// A number with its thousands apart.
+struct Grouped(u64);
+
+impl fmt::Display for Grouped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 < 1000 {
+            return write!(f, "{}", self.0);
+        }
+        write!(f, "{},{:03}", Grouped(self.0 / 1000), self.0 % 1000)
+    }
+}
+
+/// The outcomes as JSON.
+pub fn json(outcomes: &[Outcome]) -> Value {
+    let one = |Outcome { method, result }: &Outcome| match result {
+        Err(unsuited) => json!({ "method": method.name, "unsuited": unsuited.to_string() }),
+        Ok(Measured { work, time, quality, holes, file }) => json!({
+            "method": method.name,
+            "work": work,
+            "time_ratio": time,
+            "pixels": quality.pixels,
+            "wrong_polygon": quality.ids,
+            "wrong_colour": quality.colours,
+            "holes": holes,
+            "identical": quality.decibels.is_infinite(),
+            "psnr_db": quality.decibels.is_finite().then_some(quality.decibels),
+            "file": file,
+        }),
+    };
+    outcomes.iter().map(one).collect()
+}

@@ -1,0 +1,82 @@
+//! Running experiments and writing what they found.
+//!
+//! Of every experiment its folder holds `report.json`, `tables.txt` and its plots and pictures.
+
+use crate::{Experiment, Report, StudyError, Verdict};
+use serde_json::json;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use wheatstone_golden::picture::{write_file, WriteError};
+
+/// What is told while experiments run.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// An experiment begins.
+    Begin(&'a Experiment),
+    /// An experiment has ended after this time; its files are written.
+    End(&'a Report, Duration),
+}
+
+/// How many figures hold, differ, and are not judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Summary {
+    /// Figures that hold.
+    pub holds: usize,
+    /// Figures that do not.
+    pub differs: usize,
+    /// Figures that depend on the machine.
+    pub trend: usize,
+}
+
+impl Summary {
+    /// Counts the figures of some reports.
+    pub fn of(reports: &[Report]) -> Summary {
+        let mut summary = Summary::default();
+        for row in reports.iter().flat_map(Report::rows) {
+            *match row.verdict() {
+                Verdict::Holds => &mut summary.holds,
+                Verdict::Differs => &mut summary.differs,
+                Verdict::Trend => &mut summary.trend,
+            } += 1;
+        }
+        summary
+    }
+}
+
+/// Runs experiments one after another, as they time things; each writes into the folder of its
+/// name in `out`. Folders are made if need be.
+pub fn run(
+    experiments: &[Experiment],
+    out: &Path,
+    mut tell: impl FnMut(Event),
+) -> Result<Vec<Report>, StudyError> {
+    // All folders before any work, so that one that cannot be made costs none.
+    let folders: Vec<_> = experiments.iter().map(|e| out.join(e.name)).collect();
+    for folder in &folders {
+        std::fs::create_dir_all(folder)
+            .map_err(|source| WriteError { file: folder.clone(), source })?;
+    }
+    let mut reports = Vec::new();
+    for (experiment, folder) in experiments.iter().zip(folders) {
+        tell(Event::Begin(experiment));
+        let start = Instant::now();
+        let report = (experiment.run)(&folder)?;
+        let tables: String = report.tables.iter().map(|table| format!("{table}\n")).collect();
+        write_file(&folder.join("tables.txt"), tables.as_bytes())?;
+        write_file(&folder.join("report.json"), format!("{:#}\n", report.json()).as_bytes())?;
+        tell(Event::End(&report, start.elapsed()));
+        reports.push(report);
+    }
+    Ok(reports)
+}
+
+/// All reports as one JSON text; `command` is what was called.
+pub fn json(reports: &[Report], command: &str) -> String {
+    let content = json!({
+        "command": command,
+        "version": env!("CARGO_PKG_VERSION"),
+        "summary": Summary::of(reports),
+        "experiments": reports.iter().map(Report::json).collect::<Vec<_>>(),
+    });
+    format!("{content:#}\n")
+}

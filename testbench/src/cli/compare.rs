@@ -1,0 +1,60 @@
+//! `wheatstone compare`.
+
+use super::*;
+use wheatstone_golden::picture::write_file;
+use wheatstone_golden::setup::Arrangement;
+use wheatstone_studies::compare::{compare, json, table, Method};
+use wheatstone_studies::prepared::Prepared;
+
+#[derive(Debug, Args)]
+pub(super) struct CompareArgs {
+    /// Folder for an error picture of each method; it is made if need be
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write a JSON report
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
+    let settings = args.common.settings()?;
+    let options = settings.options;
+    if options.arrangement != Arrangement::Normal || options.single {
+        let message = "--param display, displays: views are compared each on its own display";
+        return Err(Failure::Input(message.into()));
+    }
+    let name = args.common.scene.as_deref().unwrap_or("room");
+    let scene = args.common.open(name, args.common.size)?;
+    let geometry = args.common.geometry_of(&scene, &settings)?;
+    if let Some(out) = &args.out {
+        std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;
+    }
+    let prepared =
+        Prepared { scene, geometry, config: settings.config, options, lookup: settings.lookup };
+    let spinner = Spinner::new();
+    let tell = |method: &Method| spinner.tell(method.name, method.description);
+    let outcomes = compare(&prepared, args.out.as_deref(), tell);
+    drop(spinner);
+    let outcomes = outcomes?;
+    let Geometry { width, height, polygons, .. } = &prepared.geometry;
+    say!("{name}, {width}x{height}, {} polygons: the second view", polygons.len());
+    say!("{}", table(&outcomes));
+    say!("time: of the second view, direct rendering's is 1; that of SAM is its golden model's");
+    for file in outcomes.iter().filter_map(|o| o.result.as_ref().ok()?.file.as_ref()) {
+        say!("image {}", file.display());
+    }
+    if let Some(file) = &args.json {
+        let content = serde_json::json!({
+            "command": std::env::args().collect::<Vec<_>>().join(" "),
+            "scene": name,
+            "width": width,
+            "height": height,
+            "polygons": polygons.len(),
+            "methods": json(&outcomes),
+        });
+        write_file(file, format!("{content:#}\n").as_bytes())?;
+    }
+    Ok(OK)
+}

@@ -1,0 +1,117 @@
+//! Ways to make the second view side by side: what is counted, and that errors are seen.
+
+use wheatstone_golden::formats::Eye;
+use wheatstone_golden::frame::{Frame, NO_ID};
+use wheatstone_golden::picture::Rgb;
+use wheatstone_golden::scene::open;
+use wheatstone_golden::work::{Unmetered, Work};
+use wheatstone_studies::compare::{compare, error_picture, json, table, Timed, METHODS};
+use wheatstone_studies::prepared::Prepared;
+use wheatstone_tests::folder;
+
+fn prepared(scene: &str) -> Prepared {
+    Prepared::new(open(scene, Some([160, 120]), None).expect("built in")).expect("legal")
+}
+
+#[test]
+fn every_method_is_measured_and_its_errors_drawn() {
+    let folder = folder();
+    let prepared = prepared("exclusive");
+    let mut told = Vec::new();
+    let outcomes =
+        compare(&prepared, Some(folder.path()), |method| told.push(method.name)).expect("written");
+    assert_eq!(told, METHODS.iter().map(|m| m.name).collect::<Vec<_>>());
+    let measured = |name: &str| {
+        let outcome = outcomes.iter().find(|o| o.method.name == name).expect(name);
+        outcome.result.as_ref().unwrap_or_else(|e| panic!("{name}: {e}"))
+    };
+    for outcome in outcomes.iter().filter(|o| o.result.is_ok()) {
+        let measured = measured(outcome.method.name);
+        assert!(measured.time.is_finite(), "{}", outcome.method.name);
+        assert_eq!(measured.quality.pixels, 2 * 160 * 120);
+        let picture = image::open(measured.file.as_ref().expect("a file")).expect("a picture");
+        assert_eq!([picture.width(), picture.height()], [320, 120]);
+    }
+    let direct = measured("direct");
+    assert!(direct.quality.decibels.is_infinite() && direct.holes == 0);
+    assert_eq!(direct.quality.colours + direct.quality.ids, 0);
+    assert!(direct.work.pixels_tested >= direct.work.pixels_written);
+    // Coverage of the hybrid is exact, that of the minimal system is not.
+    assert_eq!(measured("sam-hybrid").quality.ids, 0);
+    assert!(measured("sam-minimal").quality.ids > 0);
+    let text = table(&outcomes);
+    let json = json(&outcomes);
+    for (n, method) in METHODS.iter().enumerate() {
+        assert!(text.contains(method.name));
+        assert_eq!(json[n]["method"], method.name);
+    }
+    assert_eq!(json[0]["identical"], true);
+    assert_eq!(json[0]["work"]["pixels_tested"], direct.work.pixels_tested);
+}
+
+#[test]
+fn the_second_view_takes_what_the_first_alone_does_not() {
+    let prepared = prepared("room");
+    let job = prepared.job();
+    let [left, right] = Eye::BOTH.map(|eye| {
+        let mut work = Work::default();
+        let frame = job.view(eye, &mut work);
+        assert!(frame == job.view(eye, &mut Unmetered), "counting changes nothing");
+        (frame, work)
+    });
+    // Every pixel that is covered was written, and each write was tested.
+    let covered = right.0.id.iter().filter(|&&id| id != NO_ID).count() as u64;
+    assert!(covered <= right.1.pixels_written && right.1.pixels_written <= right.1.pixels_tested);
+    for method in METHODS {
+        let pair = (method.draw)(&prepared).expect("it can be drawn");
+        let first = match method.timed {
+            Timed::Second(second) => {
+                assert!(second(&prepared, &left.0) == pair.frames[1], "{}", method.name);
+                left.0.clone()
+            }
+            Timed::Both { both, first } => {
+                assert!(both(&prepared) == pair.frames, "{}", method.name);
+                first(&prepared).swap_remove(0)
+            }
+        };
+        // What is timed as the first view is the whole first view.
+        assert!(first.id == left.0.id, "{}", method.name);
+        let work = pair.work;
+        let some = work.beats + work.pixels_tested + work.operations.all();
+        assert!(some > 0, "{} counts nothing", method.name);
+        assert!(work.beats < job.run(true, &mut Nothing).beats());
+    }
+}
+
+/// Takes beats and does nothing with them.
+struct Nothing;
+
+impl wheatstone_golden::primary::Sink for Nothing {
+    fn polygon(&mut self, _: u32) {}
+    fn records(
+        &mut self,
+        _: &wheatstone_golden::pipeline::Setup,
+        _: &wheatstone_golden::pipeline::Edges,
+    ) {
+    }
+    fn beat(&mut self, _: &wheatstone_golden::pipeline::PrimaryBeat) {}
+}
+
+#[test]
+fn error_pictures_show_what_is_wrong() {
+    let mut direct = Frame::new(4, 1, [90, 90, 90]);
+    direct.id = vec![1, 1, 1, NO_ID];
+    let mut frame = direct.clone();
+    let right = |n: u32, frame: &Frame| *error_picture(frame, &direct).get_pixel(n, 0);
+    let plain = right(0, &frame);
+    assert!((1..4).all(|n| right(n, &frame) == plain) && plain.0[0] == plain.0[1]);
+    frame.id[0] = NO_ID;
+    frame.id[1] = 2;
+    frame.colour[2] = [90, 91, 90];
+    frame.id[3] = 7;
+    assert_eq!(right(0, &frame), Rgb([255, 0, 255]));
+    assert_eq!(right(1, &frame), Rgb([255, 40, 40]));
+    let Rgb([r, g, b]) = right(2, &frame);
+    assert!(r == g && r > 60 && b == 0);
+    assert_eq!(right(3, &frame), Rgb([255, 40, 40]));
+}
