@@ -31,72 +31,107 @@ impl<const VALUES: usize> Corner<2, VALUES> {
     }
 }
 
-/// Where an edge crosses the centre lines of rows: the first column whose centre is not left of
-/// it, ceil(x − 1/2), and what was added to get there.
+/// Where an edge crosses the centre lines of rows in one view.
 #[derive(Clone, Copy, Debug)]
 struct Walk {
-    column: i64,
-    /// column − (x − 1/2), times `whole`: from 0 to `whole` − 1.
-    excess: i64,
-    whole: i64,
-    /// Columns a row, rounded down, and what this leaves, times `whole`.
-    step: i64,
-    rest: i64,
+    /// x in subpixels, rounded up.
+    x: i32,
+    /// What this adds to x, times the rise of the edge: from 0 to the rise less 1.
+    excess: i32,
+    /// Subpixels a row, rounded down.
+    step: i32,
+    /// What this leaves, times the rise.
+    rest: i32,
 }
 
 impl Walk {
-    /// An edge that rises by `rise` > 0 and runs by `run` subpixels from x, at `below` subpixels
-    /// under its upper end.
-    fn new(x: i64, run: i64, rise: i64, below: i64, bits: u32) -> Walk {
-        let whole = rise << bits;
-        let position = (x - (1 << (bits - 1))) * rise + run * below;
-        let left = (-position).div_euclid(whole);
+    /// An edge that runs by `run` subpixels from x while it rises by `rise` > 0, at `below`
+    /// subpixels under its upper end.
+    fn new(x: i32, run: i64, rise: i64, below: i64, bits: u32) -> Walk {
+        let back = -run * below;
+        // Where one row is all there is, a step may be out of range; it is not made.
+        let step = (run << bits).div_euclid(rise);
         Walk {
-            column: -left,
-            excess: -position - left * whole,
-            whole,
-            step: run.div_euclid(rise),
-            rest: run.rem_euclid(rise) << bits,
+            x: x - back.div_euclid(rise) as i32,
+            excess: back.rem_euclid(rise) as i32,
+            step: step as i32,
+            rest: ((run << bits) - step * rise) as i32,
         }
     }
 
     #[inline]
-    fn next(&mut self) {
-        self.column += self.step;
+    fn next(&mut self, rise: i32) {
+        self.x += self.step;
         self.excess -= self.rest;
         if self.excess < 0 {
-            self.column += 1;
-            self.excess += self.whole;
+            self.x += 1;
+            self.excess += rise;
         }
+    }
+
+    /// The first column whose centre is not left of the edge.
+    #[inline]
+    fn column(&self, bits: u32) -> i32 {
+        first_centre(self.x, bits)
     }
 }
 
-/// An edge, from the first to before the last row whose centre line it crosses.
+/// The first pixel whose centre is not before a place: ceil(n − 1/2), n in subpixels.
+#[inline]
+fn first_centre(n: i32, bits: u32) -> i32 {
+    (n + (1 << (bits - 1)) - 1) >> bits
+}
+
+/// An edge that crosses the centre lines of rows.
 #[derive(Clone, Copy, Debug)]
 struct Edge<const VIEWS: usize, const VALUES: usize> {
-    end: i64,
+    /// The row after the last one.
+    end: i32,
+    /// Height in subpixels.
+    rise: i32,
     walks: [Walk; VIEWS],
     values: [i64; VALUES],
     slopes: [i64; VALUES],
 }
 
 impl<const VIEWS: usize, const VALUES: usize> Edge<VIEWS, VALUES> {
+    /// An edge as it crosses row `first`.
+    fn new([upper, lower]: [&Corner<VIEWS, VALUES>; 2], [first, end]: [i32; 2], bits: u32) -> Self {
+        let rise = i64::from(lower.y) - i64::from(upper.y);
+        let below = (i64::from(first) << bits) + (1 << (bits - 1)) - i64::from(upper.y);
+        let walks = core::array::from_fn(|view| {
+            let run = i64::from(lower.x[view]) - i64::from(upper.x[view]);
+            Walk::new(upper.x[view], run, rise, below, bits)
+        });
+        let slopes = core::array::from_fn(|k| {
+            let change = i64::from(lower.values[k]) - i64::from(upper.values[k]);
+            (change << (VALUE_BITS + bits)).div_euclid(rise)
+        });
+        let values = core::array::from_fn(|k| {
+            let start = (i64::from(upper.values[k]) << VALUE_BITS) + (1 << (VALUE_BITS - 1));
+            start + ((slopes[k] * below) >> bits)
+        });
+        Edge { end, rise: rise as i32, walks, values, slopes }
+    }
+
     #[inline]
     fn next(&mut self) {
-        self.walks.iter_mut().for_each(Walk::next);
+        for walk in &mut self.walks {
+            walk.next(self.rise);
+        }
         for (value, slope) in self.values.iter_mut().zip(self.slopes) {
             *value += slope;
         }
     }
 }
 
-/// Where a row of a view is inside: from column `left.0` to before `right.0`, with the values of
+/// Where a row of a view is inside: from the first column to before the second, with the values of
 /// the edges there, 16 fraction bits, half a unit added.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span<'a, const VALUES: usize> {
     pub view: usize,
-    pub y: i64,
-    pub columns: [i64; 2],
+    pub y: usize,
+    pub columns: [i32; 2],
     pub values: [&'a [i64; VALUES]; 2],
 }
 
@@ -104,35 +139,37 @@ pub(super) struct Span<'a, const VALUES: usize> {
 #[derive(Clone, Debug)]
 pub struct Edges<const VIEWS: usize, const VALUES: usize> {
     /// Width and height of each view in pixels.
-    size: [i64; 2],
+    size: [i32; 2],
     bits: u32,
-    /// First row of each edge and its place in `edges`, sorted.
-    order: Vec<(i64, usize)>,
     edges: Vec<Edge<VIEWS, VALUES>>,
+    /// First row of each edge and its place in `edges`, sorted.
+    order: Vec<(i32, usize)>,
     active: Vec<Edge<VIEWS, VALUES>>,
     /// Column and place in `active` of the crossings of a row, sorted by column.
-    crossings: Vec<(i64, usize)>,
+    crossings: Vec<(i32, usize)>,
 }
 
 impl<const VIEWS: usize, const VALUES: usize> Edges<VIEWS, VALUES> {
-    /// Tables for views of this size in pixels, and corners with this many subpixel bits (1 to 8).
+    /// Tables for views of this size in pixels, up to 2^20, and corners with this many subpixel
+    /// bits, 1 to 8.
     pub fn new(size: [u32; 2], subpixel_bits: u32) -> Self {
         Edges {
-            size: size.map(i64::from),
+            size: size.map(|n| n as i32),
             bits: subpixel_bits,
-            order: Vec::new(),
             edges: Vec::new(),
+            order: Vec::new(),
             active: Vec::new(),
             crossings: Vec::new(),
         }
     }
 
     /// Width of each view in pixels.
-    pub(super) fn width(&self) -> i64 {
+    pub(super) fn width(&self) -> i32 {
         self.size[0]
     }
 
     /// Calls `span` for the inside of every row of every view, rows from the top.
+    #[inline]
     pub(super) fn scan<M: Meter>(
         &mut self,
         corners: &[Corner<VIEWS, VALUES>],
@@ -144,26 +181,34 @@ impl<const VIEWS: usize, const VALUES: usize> Edges<VIEWS, VALUES> {
             work.polygons += VIEWS as u64;
             work.edge_updates += self.order.len() as u64;
         });
-        let mut next = 0;
+        let mut waiting = 0;
         let mut y = 0;
-        self.active.clear();
-        while next < self.order.len() || !self.active.is_empty() {
+        while waiting < self.order.len() || !self.active.is_empty() {
             if self.active.is_empty() {
-                y = self.order[next].0;
+                y = self.order[waiting].0;
             }
-            while let Some(&(_, edge)) = self.order.get(next).filter(|edge| edge.0 == y) {
+            while let Some(&(_, edge)) = self.order.get(waiting).filter(|edge| edge.0 == y) {
                 self.active.push(self.edges[edge]);
-                next += 1;
+                waiting += 1;
             }
-            meter.note(|work| {
-                let active = self.active.len() as u64;
-                work.edge_updates += active;
-                work.interpolations += active * (VIEWS + VALUES) as u64;
-            });
-            for view in 0..VIEWS {
-                self.row(view, y, |s| span(meter, s));
+            // The same edges are active until one of them ends or the next one begins.
+            let begins = self.order.get(waiting).map_or(i32::MAX, |edge| edge.0);
+            let until = self.active.iter().fold(begins, |until, edge| until.min(edge.end));
+            loop {
+                meter.note(|work| {
+                    let active = self.active.len() as u64;
+                    work.edge_updates += active;
+                    work.interpolations += active * (VIEWS + VALUES) as u64;
+                });
+                for view in 0..VIEWS {
+                    self.row(view, y, |s| span(meter, s));
+                }
+                y += 1;
+                if y == until {
+                    break;
+                }
+                self.active.iter_mut().for_each(Edge::next);
             }
-            y += 1;
             self.active.retain(|edge| edge.end > y);
             self.active.iter_mut().for_each(Edge::next);
         }
@@ -171,10 +216,20 @@ impl<const VIEWS: usize, const VALUES: usize> Edges<VIEWS, VALUES> {
 
     /// The spans of one row of one view.
     #[inline]
-    fn row(&mut self, view: usize, y: i64, mut span: impl FnMut(Span<VALUES>)) {
+    fn row(&mut self, view: usize, y: i32, mut span: impl FnMut(Span<VALUES>)) {
+        let (bits, y) = (self.bits, y as usize);
+        if let [a, b] = &self.active[..] {
+            let columns = [a, b].map(|edge| edge.walks[view].column(bits));
+            return if columns[0] <= columns[1] {
+                span(Span { view, y, columns, values: [&a.values, &b.values] })
+            } else {
+                let columns = [columns[1], columns[0]];
+                span(Span { view, y, columns, values: [&b.values, &a.values] })
+            };
+        }
         self.crossings.clear();
         for (index, edge) in self.active.iter().enumerate() {
-            let column = edge.walks[view].column;
+            let column = edge.walks[view].column(bits);
             self.crossings.push((column, index));
             // There are few, nearly sorted.
             let mut k = index;
@@ -191,44 +246,19 @@ impl<const VIEWS: usize, const VALUES: usize> Edges<VIEWS, VALUES> {
 
     /// Makes the edges that cross centre lines within the window.
     fn build(&mut self, corners: &[Corner<VIEWS, VALUES>]) {
-        self.order.clear();
         self.edges.clear();
+        self.order.clear();
         let Some(mut previous) = corners.last() else { return };
-        let half = 1i64 << (self.bits - 1);
-        // First row whose centre is not above y.
-        let row = |y: i32| (i64::from(y) + half - 1) >> self.bits;
         for corner in corners {
             let ends = if previous.y <= corner.y { [previous, corner] } else { [corner, previous] };
-            let [first, end] = ends.map(|corner| row(corner.y));
-            let [first, end] = [first.max(0), end.min(self.size[1])];
-            if first < end {
-                self.order.push((first, self.edges.len()));
-                self.edges.push(self.edge(ends, [first, end]));
+            let [first, end] = ends.map(|corner| first_centre(corner.y, self.bits));
+            let rows = [first.max(0), end.min(self.size[1])];
+            if rows[0] < rows[1] {
+                self.order.push((rows[0], self.edges.len()));
+                self.edges.push(Edge::new(ends, rows, self.bits));
             }
             previous = corner;
         }
         self.order.sort_unstable();
-    }
-
-    fn edge(
-        &self,
-        [upper, lower]: [&Corner<VIEWS, VALUES>; 2],
-        [first, end]: [i64; 2],
-    ) -> Edge<VIEWS, VALUES> {
-        let rise = i64::from(lower.y) - i64::from(upper.y);
-        let below = (first << self.bits) + (1 << (self.bits - 1)) - i64::from(upper.y);
-        let walks = core::array::from_fn(|view| {
-            let [from, to] = [upper, lower].map(|corner| i64::from(corner.x[view]));
-            Walk::new(from, to - from, rise, below, self.bits)
-        });
-        let slopes = core::array::from_fn(|k| {
-            let change = i64::from(lower.values[k]) - i64::from(upper.values[k]);
-            (change << (VALUE_BITS + self.bits)).div_euclid(rise)
-        });
-        let values = core::array::from_fn(|k| {
-            let start = (i64::from(upper.values[k]) << VALUE_BITS) + (1 << (VALUE_BITS - 1));
-            start + ((slopes[k] * below) >> self.bits)
-        });
-        Edge { end, walks, values, slopes }
     }
 }

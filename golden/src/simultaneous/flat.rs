@@ -19,7 +19,7 @@ pub fn fill<const VIEWS: usize>(
         let [left, right] = [row.columns[0].max(0), row.columns[1].min(width)];
         if left < right {
             meter.note(|work| work.pixels_written += (right - left) as u64);
-            span(row.view, row.y as usize, left as usize..right as usize);
+            span(row.view, row.y, left as usize..right as usize);
         }
     });
 }

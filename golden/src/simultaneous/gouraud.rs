@@ -30,8 +30,8 @@ pub fn shade<const VIEWS: usize, const VALUES: usize>(
         });
         let slopes = slopes(&row);
         let mut values: [i64; VALUES] =
-            core::array::from_fn(|k| row.values[0][k] + slopes[k] * (start - left));
-        let (view, y) = (row.view, row.y as usize);
+            core::array::from_fn(|k| row.values[0][k] + slopes[k] * i64::from(start - left));
+        let (view, y) = (row.view, row.y);
         for x in start..end.min(right - 1) {
             pixel(view, x as usize, y, values.map(whole));
             for (value, slope) in values.iter_mut().zip(slopes) {
@@ -49,7 +49,7 @@ pub fn shade<const VIEWS: usize, const VALUES: usize>(
 /// Change of the values for one pixel, between the edge pixels of a span.
 fn slopes<const VALUES: usize>(span: &Span<VALUES>) -> [i64; VALUES] {
     let steps = (span.columns[1] - span.columns[0] - 1).max(1);
-    core::array::from_fn(|k| (span.values[1][k] - span.values[0][k]).div_euclid(steps))
+    core::array::from_fn(|k| (span.values[1][k] - span.values[0][k]).div_euclid(steps.into()))
 }
 
 fn whole(value: i64) -> i32 {
