@@ -58,10 +58,11 @@ enum Shape {
     Tangle,
 }
 
-/// A polygon of 3 to 32 sides somewhere about the window.
+/// A polygon of 3 to 32 sides somewhere about the window, some of them far larger.
 fn polygon<const VALUES: usize>(random: &mut Rng, shape: Shape) -> Vec<Corner<2, VALUES>> {
     let sides = random.usize(3..=32);
-    let reach = [(); 2].map(|()| [0.3, 2.0, 10.0, 40.0][random.usize(..4)] * (0.5 + random.f64()));
+    let reach =
+        [(); 2].map(|()| [0.3, 2.0, 10.0, 40.0, 5e5][random.usize(..5)] * (0.5 + random.f64()));
     let centre = SIZE.map(|size| f64::from(size) * (1.4 * random.f64() - 0.2));
     let [scale, shear] = [random.f64() * 1.2 - 0.2, random.f64() * 2.0 - 1.0];
     // Every other polygon has its corners on pixel centres and borders.
@@ -176,7 +177,9 @@ fn shaded<const VIEWS: usize>(
     work: &mut Work,
 ) -> Vec<Pixel> {
     let mut pixels = Vec::new();
-    gouraud::shade(edges, polygon, work, |view, x, y, values| pixels.push((view, y, x, values)));
+    gouraud::shade(edges, polygon, work, |view, y, ramp| {
+        ramp.for_each(|x, values| pixels.push((view, y, x, values)));
+    });
     pixels.sort_unstable();
     pixels
 }
@@ -234,17 +237,20 @@ fn colours_are_interpolated_along_edges_and_between_them() {
         let polygon = polygon::<3>(&mut random, Shape::Convex);
         // Corners between the centre lines, so that no edge ends on one.
         let polygon: Vec<_> = polygon.iter().map(|c| Corner { y: c.y | 1, ..*c }).collect();
-        gouraud::shade(&mut edges, &polygon, &mut Unmetered, |view, x, y, values| {
+        gouraud::shade(&mut edges, &polygon, &mut Unmetered, |view, y, ramp| {
             let crossings = crossings(&polygon, view, y);
             let &[left, right] = &crossings[..] else { return };
             let pixels = [left, right].map(|(x, _)| (x - 0.5).ceil());
             let steps = pixels[1] - 1.0 - pixels[0];
-            let t = if steps > 0.0 { (x as f64 - pixels[0]) / steps } else { 0.0 };
-            for (n, value) in values.into_iter().enumerate() {
-                let wanted = left.1[n] + t * (right.1[n] - left.1[n]);
-                assert!((f64::from(value) - wanted).abs() < 0.51, "{polygon:?} {x} {y} {wanted}");
-            }
-            compared += 1;
+            ramp.for_each(|x, values| {
+                let t = if steps > 0.0 { (x as f64 - pixels[0]) / steps } else { 0.0 };
+                for (n, value) in values.into_iter().enumerate() {
+                    let wanted = left.1[n] + t * (right.1[n] - left.1[n]);
+                    let error = (f64::from(value) - wanted).abs();
+                    assert!(error < 0.51, "{polygon:?} {x} {y} {wanted}");
+                }
+                compared += 1;
+            });
         });
     }
     assert!(compared > 5_000_000, "{compared}");

@@ -3,6 +3,7 @@
 //! An experiment is a function that returns a [`Report`]: tables of what is printed, what is correct
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
+pub mod adelson;
 pub mod plot;
 pub mod report;
 pub mod timing;
@@ -26,7 +27,11 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order they are run.
-pub const EXPERIMENTS: &[Experiment] = &[];
+pub const EXPERIMENTS: &[Experiment] = &[Experiment {
+    name: "adelson",
+    description: "both views at once: Adelson et al., Table 1 but for hidden surfaces",
+    run: adelson::run,
+}];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]

@@ -8,7 +8,9 @@
 //! The views share the rows, so they share the table of edges, its order, the list of active
 //! edges, and the values interpolated along them, which depend on y alone. Each has its own x.
 
+use super::walk::{first_centre, Divisor, Walk};
 use crate::work::Meter;
+use std::ops::Range;
 
 /// Fraction bits of an interpolated value.
 pub(super) const VALUE_BITS: u32 = 16;
@@ -31,64 +33,11 @@ impl<const VALUES: usize> Corner<2, VALUES> {
     }
 }
 
-/// Where an edge crosses the centre lines of rows in one view.
-#[derive(Clone, Copy, Debug)]
-struct Walk {
-    /// x in subpixels, rounded up.
-    x: i32,
-    /// What this adds to x, times the rise of the edge: from 0 to the rise less 1.
-    excess: i32,
-    /// Subpixels a row, rounded down.
-    step: i32,
-    /// What this leaves, times the rise.
-    rest: i32,
-}
-
-impl Walk {
-    /// An edge that runs by `run` subpixels from x while it rises by `rise` > 0, at `below`
-    /// subpixels under its upper end.
-    fn new(x: i32, run: i64, rise: i64, below: i64, bits: u32) -> Walk {
-        let back = -run * below;
-        // Where one row is all there is, a step may be out of range; it is not made.
-        let step = (run << bits).div_euclid(rise);
-        Walk {
-            x: x - back.div_euclid(rise) as i32,
-            excess: back.rem_euclid(rise) as i32,
-            step: step as i32,
-            rest: ((run << bits) - step * rise) as i32,
-        }
-    }
-
-    #[inline]
-    fn next(&mut self, rise: i32) {
-        self.x += self.step;
-        self.excess -= self.rest;
-        if self.excess < 0 {
-            self.x += 1;
-            self.excess += rise;
-        }
-    }
-
-    /// The first column whose centre is not left of the edge.
-    #[inline]
-    fn column(&self, bits: u32) -> i32 {
-        first_centre(self.x, bits)
-    }
-}
-
-/// The first pixel whose centre is not before a place: ceil(n − 1/2), n in subpixels.
-#[inline]
-fn first_centre(n: i32, bits: u32) -> i32 {
-    (n + (1 << (bits - 1)) - 1) >> bits
-}
-
 /// An edge that crosses the centre lines of rows.
 #[derive(Clone, Copy, Debug)]
 struct Edge<const VIEWS: usize, const VALUES: usize> {
     /// The row after the last one.
     end: i32,
-    /// Height in subpixels.
-    rise: i32,
     walks: [Walk; VIEWS],
     values: [i64; VALUES],
     slopes: [i64; VALUES],
@@ -97,31 +46,21 @@ struct Edge<const VIEWS: usize, const VALUES: usize> {
 impl<const VIEWS: usize, const VALUES: usize> Edge<VIEWS, VALUES> {
     /// An edge as it crosses row `first`.
     fn new([upper, lower]: [&Corner<VIEWS, VALUES>; 2], [first, end]: [i32; 2], bits: u32) -> Self {
-        let rise = i64::from(lower.y) - i64::from(upper.y);
+        let rise = Divisor::new(i64::from(lower.y) - i64::from(upper.y));
         let below = (i64::from(first) << bits) + (1 << (bits - 1)) - i64::from(upper.y);
         let walks = core::array::from_fn(|view| {
             let run = i64::from(lower.x[view]) - i64::from(upper.x[view]);
-            Walk::new(upper.x[view], run, rise, below, bits)
+            Walk::new(upper.x[view], run, &rise, below, bits)
         });
-        let slopes = core::array::from_fn(|k| {
-            let change = i64::from(lower.values[k]) - i64::from(upper.values[k]);
-            (change << (VALUE_BITS + bits)).div_euclid(rise)
-        });
+        let change = |k: usize| i64::from(lower.values[k]) - i64::from(upper.values[k]);
+        let slopes: [[i64; 2]; VALUES] =
+            core::array::from_fn(|k| rise.divide(change(k) << (VALUE_BITS + bits)));
         let values = core::array::from_fn(|k| {
             let start = (i64::from(upper.values[k]) << VALUE_BITS) + (1 << (VALUE_BITS - 1));
-            start + ((slopes[k] * below) >> bits)
+            let [slope, rest] = slopes[k];
+            start + ((slope * below + rise.divide(rest * below)[0]) >> bits)
         });
-        Edge { end, rise: rise as i32, walks, values, slopes }
-    }
-
-    #[inline]
-    fn next(&mut self) {
-        for walk in &mut self.walks {
-            walk.next(self.rise);
-        }
-        for (value, slope) in self.values.iter_mut().zip(self.slopes) {
-            *value += slope;
-        }
+        Edge { end, walks, values, slopes: slopes.map(|[slope, _]| slope) }
     }
 }
 
@@ -145,12 +84,14 @@ pub struct Edges<const VIEWS: usize, const VALUES: usize> {
     /// First row of each edge and its place in `edges`, sorted.
     order: Vec<(i32, usize)>,
     active: Vec<Edge<VIEWS, VALUES>>,
+    /// Values of the active edges, row by row of a run.
+    values: Vec<[i64; VALUES]>,
     /// Column and place in `active` of the crossings of a row, sorted by column.
     crossings: Vec<(i32, usize)>,
 }
 
 impl<const VIEWS: usize, const VALUES: usize> Edges<VIEWS, VALUES> {
-    /// Tables for views of this size in pixels, up to 2^20, and corners with this many subpixel
+    /// Tables for views of this size in pixels, up to 2^13, and corners with this many subpixel
     /// bits, 1 to 8.
     pub fn new(size: [u32; 2], subpixel_bits: u32) -> Self {
         Edges {
@@ -159,6 +100,7 @@ impl<const VIEWS: usize, const VALUES: usize> Edges<VIEWS, VALUES> {
             edges: Vec::new(),
             order: Vec::new(),
             active: Vec::new(),
+            values: Vec::new(),
             crossings: Vec::new(),
         }
     }
@@ -194,53 +136,75 @@ impl<const VIEWS: usize, const VALUES: usize> Edges<VIEWS, VALUES> {
             // The same edges are active until one of them ends or the next one begins.
             let begins = self.order.get(waiting).map_or(i32::MAX, |edge| edge.0);
             let until = self.active.iter().fold(begins, |until, edge| until.min(edge.end));
-            loop {
-                meter.note(|work| {
-                    let active = self.active.len() as u64;
-                    work.edge_updates += active;
-                    work.interpolations += active * (VIEWS + VALUES) as u64;
-                });
-                for view in 0..VIEWS {
-                    self.row(view, y, |s| span(meter, s));
-                }
-                y += 1;
-                if y == until {
-                    break;
-                }
-                self.active.iter_mut().for_each(Edge::next);
+            meter.note(|work| {
+                let crossings = self.active.len() as u64 * (until - y) as u64;
+                work.edge_updates += crossings;
+                work.interpolations += crossings * (VIEWS + VALUES) as u64;
+            });
+            self.interpolate(y..until);
+            for view in 0..VIEWS {
+                self.run(view, y..until, |s| span(meter, s));
             }
+            y = until;
             self.active.retain(|edge| edge.end > y);
-            self.active.iter_mut().for_each(Edge::next);
         }
     }
 
-    /// The spans of one row of one view.
+    /// The values along the active edges.
     #[inline]
-    fn row(&mut self, view: usize, y: i32, mut span: impl FnMut(Span<VALUES>)) {
-        let (bits, y) = (self.bits, y as usize);
-        if let [a, b] = &self.active[..] {
-            let columns = [a, b].map(|edge| edge.walks[view].column(bits));
-            return if columns[0] <= columns[1] {
-                span(Span { view, y, columns, values: [&a.values, &b.values] })
-            } else {
-                let columns = [columns[1], columns[0]];
-                span(Span { view, y, columns, values: [&b.values, &a.values] })
-            };
-        }
-        self.crossings.clear();
-        for (index, edge) in self.active.iter().enumerate() {
-            let column = edge.walks[view].column(bits);
-            self.crossings.push((column, index));
-            // There are few, nearly sorted.
-            let mut k = index;
-            while k > 0 && self.crossings[k - 1].0 > column {
-                self.crossings.swap(k - 1, k);
-                k -= 1;
+    fn interpolate(&mut self, rows: Range<i32>) {
+        self.values.clear();
+        for _ in rows {
+            for edge in &mut self.active {
+                self.values.push(edge.values);
+                for (value, slope) in edge.values.iter_mut().zip(edge.slopes) {
+                    *value += slope;
+                }
             }
         }
-        for pair in self.crossings.chunks_exact(2) {
-            let values = [0, 1].map(|k: usize| &self.active[pair[k].1].values);
-            span(Span { view, y, columns: [pair[0].0, pair[1].0], values });
+    }
+
+    /// The spans of one view between the active edges.
+    #[inline]
+    fn run(&mut self, view: usize, rows: Range<i32>, mut span: impl FnMut(Span<VALUES>)) {
+        let bits = self.bits;
+        if let [a, b] = &mut self.active[..] {
+            let (a, b) = (&mut a.walks[view], &mut b.walks[view]);
+            for (y, values) in rows.zip(self.values.chunks_exact(2)) {
+                let columns = [a.column(bits), b.column(bits)];
+                let order = if columns[0] <= columns[1] { [0, 1] } else { [1, 0] };
+                span(Span {
+                    view,
+                    y: y as usize,
+                    columns: order.map(|k: usize| columns[k]),
+                    values: order.map(|k| &values[k]),
+                });
+                a.next();
+                b.next();
+            }
+            return;
+        }
+        for (y, values) in rows.zip(self.values.chunks_exact(self.active.len())) {
+            self.crossings.clear();
+            for (index, edge) in self.active.iter_mut().enumerate() {
+                let column = edge.walks[view].column(bits);
+                edge.walks[view].next();
+                self.crossings.push((column, index));
+                // There are few, nearly sorted.
+                let mut k = index;
+                while k > 0 && self.crossings[k - 1].0 > column {
+                    self.crossings.swap(k - 1, k);
+                    k -= 1;
+                }
+            }
+            for pair in self.crossings.chunks_exact(2) {
+                span(Span {
+                    view,
+                    y: y as usize,
+                    columns: [pair[0].0, pair[1].0],
+                    values: [&values[pair[0].1], &values[pair[1].1]],
+                });
+            }
         }
     }
 

@@ -8,17 +8,18 @@
 
 use super::edges::{Corner, Edges, Span, VALUE_BITS};
 use crate::work::Meter;
+use std::ops::Range;
 
-/// Calls `pixel(view, x, y, values)` for the pixels of a polygon, rows from the top.
+/// Calls `ramp(view, y, ramp)` for the rows of a polygon, from the top.
 pub fn shade<const VIEWS: usize, const VALUES: usize>(
     edges: &mut Edges<VIEWS, VALUES>,
     polygon: &[Corner<VIEWS, VALUES>],
     meter: &mut impl Meter,
-    mut pixel: impl FnMut(usize, usize, usize, [i32; VALUES]),
+    mut ramp: impl FnMut(usize, usize, Ramp<VALUES>),
 ) {
     let width = edges.width();
-    edges.scan(polygon, meter, |meter, row| {
-        let [left, right] = row.columns;
+    edges.scan(polygon, meter, |meter, span| {
+        let [left, right] = span.columns;
         let [start, end] = [left.max(0), right.min(width)];
         if start >= end {
             return;
@@ -28,30 +29,60 @@ pub fn shade<const VIEWS: usize, const VALUES: usize>(
             work.interpolations += interior as u64 * VALUES as u64;
             work.pixels_written += (end - start) as u64;
         });
-        let slopes = slopes(&row);
-        let mut values: [i64; VALUES] =
-            core::array::from_fn(|k| row.values[0][k] + slopes[k] * i64::from(start - left));
-        let (view, y) = (row.view, row.y);
-        for x in start..end.min(right - 1) {
-            pixel(view, x as usize, y, values.map(whole));
-            for (value, slope) in values.iter_mut().zip(slopes) {
-                *value += slope;
-            }
-        }
-        if end == right {
-            // The only pixel of a span is its first.
-            let last = row.values[usize::from(right - left > 1)];
-            pixel(view, (right - 1) as usize, y, last.map(whole));
-        }
+        ramp(span.view, span.y, Ramp::new(&span, start..end));
     });
 }
 
-/// Change of the values for one pixel, between the edge pixels of a span.
-fn slopes<const VALUES: usize>(span: &Span<VALUES>) -> [i64; VALUES] {
-    let steps = (span.columns[1] - span.columns[0] - 1).max(1);
-    core::array::from_fn(|k| (span.values[1][k] - span.values[0][k]).div_euclid(steps.into()))
+/// The pixels of a polygon in one row of a view.
+#[derive(Clone, Debug)]
+pub struct Ramp<const VALUES: usize> {
+    /// Columns whose values are interpolated from the first one.
+    interpolated: Range<i32>,
+    /// Values of the first one and their change for one pixel.
+    values: [i64; VALUES],
+    slopes: [i64; VALUES],
+    /// Values of the column that follows, at the right edge, unless it lies outside the window.
+    last: Option<[i64; VALUES]>,
 }
 
-fn whole(value: i64) -> i32 {
-    (value >> VALUE_BITS) as i32
+impl<const VALUES: usize> Ramp<VALUES> {
+    #[inline]
+    fn new(span: &Span<VALUES>, window: Range<i32>) -> Ramp<VALUES> {
+        let [left, right] = span.columns;
+        let [mut values, mut last] = span.values.map(|values| *values);
+        let steps = i64::from((right - left - 1).max(1));
+        let changes: [i64; VALUES] = core::array::from_fn(|k| last[k] - values[k]);
+        if window.start > left {
+            let skipped = i64::from(window.start - left);
+            for (value, change) in values.iter_mut().zip(changes) {
+                *value += (change * skipped).div_euclid(steps);
+            }
+        }
+        if right - left == 1 {
+            // The only pixel is the left edge's.
+            last = values;
+        }
+        Ramp {
+            interpolated: window.start..window.end.min(right - 1),
+            values,
+            slopes: changes.map(|change| change.div_euclid(steps)),
+            last: (window.end == right).then_some(last),
+        }
+    }
+
+    /// Calls `pixel(x, values)` for the pixels from left to right.
+    #[inline]
+    pub fn for_each(mut self, mut pixel: impl FnMut(usize, [i32; VALUES])) {
+        let whole = |value: i64| (value >> VALUE_BITS) as i32;
+        let last = self.interpolated.end;
+        for x in self.interpolated {
+            pixel(x as usize, self.values.map(whole));
+            for (value, slope) in self.values.iter_mut().zip(self.slopes) {
+                *value += slope;
+            }
+        }
+        if let Some(values) = self.last {
+            pixel(last as usize, values.map(whole));
+        }
+    }
 }

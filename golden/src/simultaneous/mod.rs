@@ -11,6 +11,7 @@ mod edges;
 pub mod flat;
 pub mod gouraud;
 pub mod projection;
+mod walk;
 
 pub use edges::{Corner, Edges};
 
