@@ -3,11 +3,13 @@
 
 use fastrand::Rng;
 use std::hint::black_box;
+use std::ops::Range;
 use wheatstone_golden::clipping::{lines, polygons, Point, Window};
 use wheatstone_golden::faces::{Plane, Viewer};
 use wheatstone_golden::formats::Eye;
+use wheatstone_golden::simultaneous::gouraud::{self, Ramp};
 use wheatstone_golden::simultaneous::projection::Projector;
-use wheatstone_golden::simultaneous::{flat, gouraud, Corner, Edges};
+use wheatstone_golden::simultaneous::{flat, Corner, Edges};
 use wheatstone_golden::work::{counted, Meter, Real, Unmetered, Work};
 
 use crate::timing::{self, Ratio};
@@ -270,30 +272,41 @@ impl<const VALUES: usize> Drawing<VALUES> {
     }
 }
 
+/// The row of a view from which on it is drawn.
+fn row(view: &mut [[u8; 3]], y: usize) -> &mut [[u8; 3]] {
+    &mut view[y * SIZE[0] as usize..]
+}
+
+/// Fills a span. Not inlined, so that both forms write pixels with the same code.
+#[inline(never)]
+fn paint(row: &mut [[u8; 3]], columns: Range<usize>, n: usize) {
+    row[columns].fill([n as u8, 128, 255]);
+}
+
+/// Draws a span, not inlined either.
+#[inline(never)]
+fn paint_ramp(row: &mut [[u8; 3]], ramp: Ramp<3>) {
+    ramp.for_each(|x, rgb| row[x] = rgb.map(|n| n as u8));
+}
+
 /// Scan-line fill.
 impl Algorithm for Drawing<0> {
     fn separately(&mut self, meter: &mut impl Meter) {
         for (polygons, view) in self.alone.iter().zip(&mut self.views) {
             for (n, polygon) in polygons.iter().enumerate() {
-                let colour = [n as u8; 3];
                 flat::fill(&mut self.edges_of_one, polygon, meter, |_, y, columns| {
-                    view[y * SIZE[0] as usize..][columns].fill(colour);
+                    paint(row(view, y), columns, n);
                 });
             }
         }
     }
     fn together(&mut self, meter: &mut impl Meter) {
         for (n, polygon) in self.both.iter().enumerate() {
-            let colour = [n as u8; 3];
             flat::fill(&mut self.edges_of_two, polygon, meter, |view, y, columns| {
-                self.views[view][y * SIZE[0] as usize..][columns].fill(colour);
+                paint(row(&mut self.views[view], y), columns, n);
             });
         }
     }
-}
-
-fn paint(row: &mut [[u8; 3]], ramp: gouraud::Ramp<3>) {
-    ramp.for_each(|x, rgb| row[x] = rgb.map(|n| n as u8));
 }
 
 /// Gouraud shading.
@@ -302,7 +315,7 @@ impl Algorithm for Drawing<3> {
         for (polygons, view) in self.alone.iter().zip(&mut self.views) {
             for polygon in polygons {
                 gouraud::shade(&mut self.edges_of_one, polygon, meter, |_, y, ramp| {
-                    paint(&mut view[y * SIZE[0] as usize..], ramp);
+                    paint_ramp(row(view, y), ramp);
                 });
             }
         }
@@ -310,7 +323,7 @@ impl Algorithm for Drawing<3> {
     fn together(&mut self, meter: &mut impl Meter) {
         for polygon in &self.both {
             gouraud::shade(&mut self.edges_of_two, polygon, meter, |view, y, ramp| {
-                paint(&mut self.views[view][y * SIZE[0] as usize..], ramp);
+                paint_ramp(row(&mut self.views[view], y), ramp);
             });
         }
     }
