@@ -3,7 +3,8 @@
 //! Adelson et al. 1991, "Stereoscopic Back-Face Removal", in its corrected form (`docs/errata.md`).
 //! The normal (A, B, C) of a plane points out of its front; an eye sees the front where
 //! A·x + B·y + C·z + D > 0 at the eye. With S the value at the right eye and the left eye e to the
-//! left of it, the value at the left eye is L = S − A·e: 10 operations instead of twice 7.
+//! left of it, the value at the left eye is L = S − A·e: 10 operations instead of twice 7. Integers
+//! below 2^53 are exact; else rounding may misjudge a plane that is edge-on to its last bits.
 //!
 //! L and S also tell the width of the polygon in one view from that in the other. A triangle's
 //! area on the screen is its distance-weighted volume with the eye: proportional to the plane's
