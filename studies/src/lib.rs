@@ -3,6 +3,7 @@
 //! An experiment is a function that returns a [`Report`]: tables of what is printed, what is correct
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
+pub mod adelson;
 pub mod compare;
 pub mod filter;
 pub mod height_field;
@@ -33,7 +34,7 @@ pub struct Experiment {
 
 /// All experiments, in the order they are run.
 pub const EXPERIMENTS: &[Experiment] =
-    &[filter::EXPERIMENT, nasa::EXPERIMENT, height_field::EXPERIMENT];
+    &[filter::EXPERIMENT, adelson::EXPERIMENT, nasa::EXPERIMENT, height_field::EXPERIMENT];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]

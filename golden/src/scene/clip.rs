@@ -2,6 +2,7 @@
 
 use super::rig::HalfSpace;
 use super::vector::{mix, Vec3};
+use crate::clipping::half_space;
 
 /// A corner with everything that is interpolated along an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,31 +27,8 @@ impl Corner {
 }
 
 /// What of a convex polygon lies in a half space; empty if nothing does.
-///
-/// The corner on a cut edge is computed from the inner end, whichever way the edge is followed:
-/// polygons that share an edge share the new corner too.
 pub fn clip(polygon: &[Corner], space: &HalfSpace) -> Vec<Corner> {
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    let Some(mut previous) = polygon.last() else {
-        return kept;
-    };
-    let mut before = space.at(previous.position);
-    for corner in polygon {
-        let here = space.at(corner.position);
-        if before >= 0.0 && here < 0.0 {
-            kept.push(previous.towards(corner, before / (before - here)));
-        } else if before < 0.0 && here >= 0.0 {
-            kept.push(corner.towards(previous, here / (here - before)));
-        }
-        if here >= 0.0 {
-            kept.push(*corner);
-        }
-        (previous, before) = (corner, here);
-    }
-    if kept.len() < 3 {
-        kept.clear();
-    }
-    kept
+    half_space::cut(polygon, |corner| space.at(corner.position), Corner::towards)
 }
 
 /// What of a convex polygon lies in all of the half spaces.

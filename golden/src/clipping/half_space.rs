@@ -1,0 +1,37 @@
+//! Convex polygons cut by a half space, whatever their corners carry.
+
+use crate::work::Real;
+
+/// What of a convex polygon lies where `distance` is not negative; empty if nothing does.
+///
+/// `towards(a, b, t)` is the corner t of the way from a to b. The corner on a cut edge is computed
+/// from the inner end, whichever way the edge is followed: polygons that share an edge share the
+/// new corner too.
+pub fn cut<C: Copy, T: Real>(
+    polygon: &[C],
+    distance: impl Fn(&C) -> T,
+    towards: impl Fn(&C, &C, T) -> C,
+) -> Vec<C> {
+    let zero = T::of(0.0);
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    let Some(mut previous) = polygon.last() else {
+        return kept;
+    };
+    let mut before = distance(previous);
+    for corner in polygon {
+        let here = distance(corner);
+        if before >= zero && here < zero {
+            kept.push(towards(previous, corner, before / (before - here)));
+        } else if before < zero && here >= zero {
+            kept.push(towards(corner, previous, here / (here - before)));
+        }
+        if here >= zero {
+            kept.push(*corner);
+        }
+        (previous, before) = (corner, here);
+    }
+    if kept.len() < 3 {
+        kept.clear();
+    }
+    kept
+}
