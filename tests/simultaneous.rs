@@ -17,7 +17,7 @@ const BITS: u32 = 8;
 #[test]
 fn both_projections_are_those_of_each_eye_and_of_the_scenes() {
     let rig = Rig { pixels_per_unit: 1.0, ..Rig::default() };
-    let camera = Camera::new(rig, 0, 0, &Formats::new(&Config::DEFAULT));
+    let camera = Camera::new(&rig, 0, 0, &Formats::new(&Config::DEFAULT));
     let projector = Projector::new(rig.eye_separation, rig.viewing_distance);
     let mut random = Rng::with_seed(1);
     for _ in 0..1_000_000 {
