@@ -172,7 +172,7 @@ fn the_values_of_a_plane_are_as_the_areas_of_its_polygons() {
 fn g1_is_that_of_setup_but_for_snapping() {
     let formats = Formats::new(&Config::DEFAULT);
     let rig = Rig::default();
-    let camera = Camera::new(rig, 640, 480, &formats);
+    let camera = Camera::new(&rig, 640, 480, &formats);
     let viewer = Viewer::new(rig.eye_separation, rig.viewing_distance);
     let mut random = Rng::with_seed(5);
     let (mut compared, mut largest): (u32, f64) = (0, 0.0);
