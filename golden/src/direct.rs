@@ -8,6 +8,7 @@ use crate::formats::{Area, Eye, Formats, Quantity, Rgba, DEPTH_MAX, FRACTION_BIT
 use crate::frame::{Fragment, Frame};
 use crate::setup::{Attributes, Eyes, Linear, Outline, Polygon};
 use crate::texture::{Lookup, Texture};
+use crate::work::{Meter, Unmetered};
 
 /// Draws polygons for one eye after another.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +24,17 @@ pub struct Direct<'a> {
 impl Direct<'_> {
     /// Draws one polygon as an eye sees it.
     pub fn draw(&self, polygon: &Polygon, eye: Eye, frame: &mut Frame) {
+        self.draw_metered(polygon, eye, frame, &mut Unmetered);
+    }
+
+    /// The same, noting its work.
+    pub fn draw_metered(
+        &self,
+        polygon: &Polygon,
+        eye: Eye,
+        frame: &mut Frame,
+        meter: &mut impl Meter,
+    ) {
         let outline = Outline::new(polygon, eye);
         let wanted = matches!(polygon.eyes, Eyes::Both) || polygon.eyes == Eyes::One(eye);
         if !wanted || outline.doubled_area() == 0 {
@@ -31,6 +43,7 @@ impl Direct<'_> {
         let attributes = Attributes::new(polygon, eye, &self.formats);
         let shade = Shade { attributes: &attributes, polygon, direct: self };
         let formats = self.formats;
+        meter.note(|work| work.polygons += 1);
         scan(&outline, [frame.width, frame.height], &formats, |x, y, mask, centre| {
             let index = y as usize * frame.width as usize + x as usize;
             let fragment = Fragment {
@@ -40,6 +53,11 @@ impl Direct<'_> {
                 write: centre,
                 id: polygon.id,
             };
+            meter.note(|work| {
+                work.pixels_tested += 1;
+                work.depth_tests += 1;
+                work.pixels_written += u64::from(fragment.depth < frame.depth[index]);
+            });
             frame.draw(index, &fragment, &formats);
         });
     }
