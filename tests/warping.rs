@@ -36,7 +36,7 @@ fn overwritten_wrongly(scene: &Scene, source: &Frame, from: Eye) -> Vec<u32> {
     for n in 0..source.id.len() {
         let x = if from == Eye::Right { n % width } else { width - 1 - n % width };
         let from = n - n % width + x;
-        let x = x as i64 + (disparity.at(source.depth[from]) + 0.5).floor() as i64;
+        let x = x as i64 + disparity.rounded(source.depth[from]);
         if (0..width as i64).contains(&x) {
             ids[n - n % width + x as usize] = source.id[from];
         }
@@ -51,7 +51,7 @@ fn resolved(scene: &Scene, source: &Frame, from: Eye) -> Vec<u32> {
     let width = i64::from(source.width);
     let mut nearest = vec![(u32::MAX, NO_ID); source.id.len()];
     for (n, &depth) in source.depth.iter().enumerate() {
-        let x = n as i64 % width + (disparity.at(depth) + 0.5).floor() as i64;
+        let x = n as i64 % width + disparity.rounded(depth);
         if (0..width).contains(&x) {
             let place = &mut nearest[n - n % width as usize + x as usize];
             if depth < place.0 {

@@ -3,6 +3,7 @@
 //! An experiment is a function that returns a [`Report`]: tables of what is printed, what is correct
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
+pub mod opengl;
 pub mod plot;
 pub mod report;
 pub mod timing;

@@ -24,13 +24,16 @@ pub struct Warped {
     pub sources: Vec<u8>,
 }
 
+/// Fraction bits of a disparity.
+const FRACTION: u32 = 40;
+
 /// Position in the other eye's view less that in one eye's, as a function of depth.
 #[derive(Clone, Copy, Debug)]
 pub struct Disparity {
-    /// At the near plane, in pixels.
-    near: f64,
+    /// At the near plane, in pixels with [`FRACTION`] bits.
+    near: i64,
     /// Change for one unit of depth.
-    slope: f64,
+    slope: i64,
 }
 
 impl Disparity {
@@ -40,14 +43,26 @@ impl Disparity {
         let [left, right] = Eye::BOTH.map(|eye| rig.eye(eye)[0]);
         let e = if from == Eye::Right { right - left } else { left - right };
         let at = |w: f64| -rig.pixels_per_unit * e * (1.0 - rig.viewing_distance / w);
-        let (near, far) = (at(rig.near()), at(rig.far()));
-        Disparity { near, slope: (far - near) / f64::from(DEPTH_MAX) }
+        let fixed = |n: f64| (n * (1i64 << FRACTION) as f64).round_ties_even() as i64;
+        // No picture is that wide; sums stay within their bits.
+        let [near, far] = [rig.near(), rig.far()].map(|w| at(w).clamp(-1e6, 1e6));
+        Disparity { near: fixed(near), slope: fixed((far - near) / f64::from(DEPTH_MAX)) }
+    }
+
+    #[inline]
+    fn fixed(&self, depth: u32) -> i64 {
+        self.near + self.slope * i64::from(depth)
     }
 
     /// At a depth, in pixels.
-    #[inline]
     pub fn at(&self, depth: u32) -> f64 {
-        self.near + self.slope * f64::from(depth)
+        self.fixed(depth) as f64 / (1i64 << FRACTION) as f64
+    }
+
+    /// To the nearest pixel, halves upward.
+    #[inline]
+    pub fn rounded(&self, depth: u32) -> i64 {
+        (self.fixed(depth) + (1 << (FRACTION - 1))) >> FRACTION
     }
 }
 
@@ -76,11 +91,10 @@ pub fn other_eye(
 ) -> Warped {
     let mut warped = Warped::new(source, background);
     let width = source.width as usize;
-    let shift = |at: usize| (disparity.at(source.depth[at]) + 0.5).floor() as i64;
     for row in (0..source.id.len()).step_by(width.max(1)) {
         for n in 0..width {
             let x = if from == Eye::Right { width - 1 - n } else { n };
-            let target = x as i64 + shift(row + x);
+            let target = x as i64 + disparity.rounded(source.depth[row + x]);
             if (0..width as i64).contains(&target) {
                 let at = row + target as usize;
                 warped.sources[at] = warped.sources[at].saturating_add(1);

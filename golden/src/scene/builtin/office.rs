@@ -71,7 +71,7 @@ pub fn rooms(name: &str) -> Option<u32> {
 /// Where the desks stand: distances of the partitions from the room's near side, and the middle of
 /// a desk from that of the room.
 const DESK_ROWS: [f64; 3] = [2.8, 6.8, 10.8];
-const DESK_COLUMNS: [f64; 2] = [-2.85, 2.85];
+const DESK_COLUMNS: [f64; 2] = [-2.95, 2.95];
 /// Height of the top of a desk.
 const TOP: f64 = 0.73;
 
@@ -98,6 +98,10 @@ fn room(quads: &mut Quads, origin: Vec3) {
     }
     let mat = [at(-0.6, 0.01, 0.4), at(0.6, 0.01, 0.4), at(0.6, 0.01, 1.2), at(-0.6, 0.01, 1.2)];
     quads.quad(mat, [104, 60, 52]);
+    let entrance = at(0.8, 0.0, -0.35);
+    chair(&mut |least, most, colour| {
+        quads.cuboid(add(entrance, least), add(entrance, most), colour)
+    });
     for row in 0..3 {
         let z = PITCH * (0.5 + f64::from(row)) / 3.0;
         for x in [-2.0, 2.0] {
@@ -199,9 +203,9 @@ fn keyboard(quads: &mut Quads, origin: Vec3) {
     }
 }
 
-/// Three pens, a tray, two sheets of paper, and a bin under the desk.
+/// Two pens, a tray, two sheets of paper, and a bin under the desk.
 fn clutter(quads: &mut Quads, origin: Vec3) {
-    for pen in 0..3 {
+    for pen in 0..2 {
         let least = add(origin, [0.3 + 0.03 * f64::from(pen), TOP, 0.6]);
         quads.standing(least, add(least, [0.012, 0.012, 0.15]), SPINES[pen as usize]);
     }
