@@ -1,13 +1,10 @@
 //! Direct rendering against an OpenGL implementation: coverage and visibility, pixel by pixel.
 
 use wheatstone_golden::config::Config;
-use wheatstone_golden::direct::Direct;
-use wheatstone_golden::formats::{Eye, Formats};
-use wheatstone_golden::frame::Frame;
+use wheatstone_golden::formats::Formats;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::scene;
 use wheatstone_golden::setup::Polygon;
-use wheatstone_golden::texture::Lookup;
 use wheatstone_studies::opengl::{self, Renderer};
 
 fn renderer() -> Renderer {
@@ -21,23 +18,12 @@ fn compare(
     size: [u32; 2],
     formats: Formats,
 ) -> [usize; 2] {
-    // Ids are positions in the list.
-    let polygons: Vec<Polygon> =
-        (0..).zip(polygons).map(|(id, p)| Polygon { id, ..p.clone() }).collect();
-    let direct = Direct { formats, textures: &[], lookup: Lookup::Nearest };
-    let mut counts = [0, 0];
-    for eye in Eye::BOTH {
-        let mut frame = Frame::new(size[0], size[1], [0; 3]);
-        polygons.iter().for_each(|polygon| direct.draw(polygon, eye, &mut frame));
-        let (triangles, owner) = opengl::triangles(&polygons, eye, &formats);
-        let drawn = renderer.draw(size, &triangles, 1).unwrap_or_else(|error| panic!("{error}"));
-        let seen = opengl::owners(&drawn, &owner);
-        let found = opengl::compare(&frame, &seen, &polygons, eye, &formats);
-        assert_eq!(found.wrong, 0, "{}", found.first.unwrap_or_default());
-        counts = [counts[0] + found.pixels, counts[1] + found.ties];
-    }
-    counts
+    let compared = opengl::compare_views(renderer, polygons, size, &formats, 1);
+    let found = compared.unwrap_or_else(|error| panic!("{error}")).differences;
+    assert_eq!(found.wrong, 0, "{}", found.first.unwrap_or_default());
+    [found.pixels, found.ties]
 }
+
 #[test]
 fn scenes_look_the_same() {
     let renderer = renderer();

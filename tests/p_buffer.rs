@@ -133,7 +133,7 @@ fn the_next_view_is_wrong_exactly_where_the_first_one_saw_nothing() {
 
 #[test]
 fn what_one_eye_sees_alone_is_missing() {
-    let surroundings = 16 * 14 + 16 * 8;
+    let surroundings = 2 + (16 * 14 + 16 * 8) / 2;
     let blue = surroundings + 36..surroundings + 72;
     let slot = surroundings..surroundings + 1;
     for (name, alone) in [("perception-cylinder", blue), ("perception-solid", slot)] {
@@ -192,4 +192,20 @@ fn counted_work_is_that_of_the_flagged_polygons() {
     assert_eq!(first.pixels_tested, first.depth_tests + 90_000);
     assert!(first.pixels_written >= plain.id.iter().filter(|&&id| id != NO_ID).count() as u64);
     assert!(second.depth_tests < first.depth_tests);
+}
+
+#[test]
+fn the_experiment_finds_what_it_should_and_writes_its_pictures() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let report = wheatstone_studies::p_buffer::run(folder.path()).expect("it runs");
+    for file in &report.files {
+        assert!(file.metadata().expect("written").len() > 1000, "{}", file.display());
+    }
+    assert_eq!(report.files.len(), 11);
+    let rows: usize = report.tables.iter().map(|table| table.rows.len()).sum();
+    assert!(rows > 120, "{rows}");
+    // Ratios of times belong to optimised code on a quiet machine.
+    let timed = |row: &&wheatstone_studies::Row| row.what.contains(" : full pipeline");
+    let differing: Vec<_> = report.differing().filter(|row| !timed(row)).collect();
+    assert!(differing.is_empty(), "{differing:#?}");
 }

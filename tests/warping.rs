@@ -7,6 +7,7 @@ use wheatstone_golden::visibility::warping::{self, Disparity, Fault, Warped};
 use wheatstone_golden::visibility::z_buffer::ZBuffer;
 use wheatstone_golden::visibility::{Model, Pose, View};
 use wheatstone_golden::work::{Unmetered, Work};
+use wheatstone_studies::p_buffer::measure::by_depth;
 
 fn scene(name: &str) -> Scene {
     builtin::scene(name, 300, 300).expect("a built-in scene")
@@ -44,24 +45,6 @@ fn overwritten_wrongly(scene: &Scene, source: &Frame, from: Eye) -> Vec<u32> {
     ids
 }
 
-/// Ids by a depth test: the nearest of the pixels that fall
-/// on a place.
-fn resolved(scene: &Scene, source: &Frame, from: Eye) -> Vec<u32> {
-    let disparity = Disparity::new(&scene.rig, from);
-    let width = i64::from(source.width);
-    let mut nearest = vec![(u32::MAX, NO_ID); source.id.len()];
-    for (n, &depth) in source.depth.iter().enumerate() {
-        let x = n as i64 % width + disparity.rounded(depth);
-        if (0..width).contains(&x) {
-            let place = &mut nearest[n - n % width as usize + x as usize];
-            if depth < place.0 {
-                *place = (depth, source.id[n]);
-            }
-        }
-    }
-    nearest.into_iter().map(|(_, id)| id).collect()
-}
-
 #[test]
 fn overwriting_in_the_right_order_leaves_the_nearest() {
     for name in ["office-1", "office-15", "perception-cylinder", "perception-solid"] {
@@ -70,7 +53,10 @@ fn overwriting_in_the_right_order_leaves_the_nearest() {
         for from in Eye::BOTH {
             let source = &views[from as usize];
             let warped = warp(&scene, source, from);
-            assert!(warped.frame.id == resolved(&scene, source, from), "{name} from {from:?}");
+            assert!(
+                warped.frame.id == by_depth(source, &Disparity::new(&scene.rig, from)),
+                "{name} from {from:?}"
+            );
             assert!(warped.frame.id != overwritten_wrongly(&scene, source, from), "{name}");
             assert!(warped.sources.iter().any(|&n| n > 1), "{name}: overlaps");
         }

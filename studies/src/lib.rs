@@ -4,6 +4,7 @@
 //! and what comes out here, with plots and pictures. [`EXPERIMENTS`] lists them.
 
 pub mod opengl;
+pub mod p_buffer;
 pub mod plot;
 pub mod report;
 pub mod timing;
@@ -27,7 +28,18 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order they are run.
-pub const EXPERIMENTS: &[Experiment] = &[];
+pub const EXPERIMENTS: &[Experiment] = &[
+    Experiment {
+        name: "p-buffer",
+        description: "visible polygons, the cost and the errors of P-buffer and image warping",
+        run: p_buffer::run,
+    },
+    Experiment {
+        name: "opengl",
+        description: "direct rendering of fifteen office rooms beside a software OpenGL renderer",
+        run: opengl::run,
+    },
+];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]
@@ -35,6 +47,9 @@ pub enum StudyError {
     /// A scene cannot be drawn.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// Nothing could be drawn with OpenGL.
+    #[error(transparent)]
+    OpenGl(#[from] opengl::OpenGlError),
     /// A picture, a plot or a table could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -5,7 +5,7 @@
 use super::desk;
 use super::quads::Quads;
 use crate::formats::Eye;
-use crate::scene::vector::turn;
+use crate::scene::vector::{add, cross, scale, turn, unit, Vec3};
 use crate::scene::{Material, Scene};
 
 /// Height of the floor, in centimetres from that of the eyes.
@@ -65,17 +65,34 @@ pub fn solid(width: u32, height: u32) -> Scene {
     finish(quads, width, height)
 }
 
-/// A floor and a wall with a chequered pattern.
+/// A floor and a wall, one polygon each, and the dark fields of their patterns just before them: a
+/// pattern stays a pattern where some of its fields are missing.
 fn surroundings() -> Quads {
+    const ABOVE: f64 = 0.05;
     let mut quads = Quads::default();
-    let chequered = |even: [u8; 3], odd: [u8; 3]| {
-        move |column: u32, row: u32| if (column + row).is_multiple_of(2) { even } else { odd }
-    };
-    let (across, along) = ([80.0, 0.0, 0.0], [0.0, 0.0, WALL + 20.0]);
-    let floor = chequered([222, 214, 190], [168, 158, 132]);
-    quads.grid([-40.0, FLOOR, -20.0], [across, along], [16, 14], floor);
-    let wall = chequered([196, 206, 196], [150, 168, 158]);
-    quads.grid([-40.0, FLOOR, WALL], [across, [0.0, 40.0, 0.0]], [16, 8], wall);
+    let mut chequered =
+        |corner: Vec3, [across, up]: [Vec3; 2], cells: [u32; 2], colours: [[u8; 3]; 2]| {
+            let front = scale(unit(cross(up, across)), ABOVE);
+            let field = |column: u32, row: u32, [columns, rows]: [u32; 2]| {
+                [[0, 0], [columns, 0], [columns, rows], [0, rows]].map(|[i, j]| {
+                    let s = scale(across, f64::from(column + i) / f64::from(cells[0]));
+                    let t = scale(up, f64::from(row + j) / f64::from(cells[1]));
+                    add(corner, add(s, t))
+                })
+            };
+            quads.quad(field(0, 0, cells), colours[0]);
+            for n in 0..cells[0] * cells[1] {
+                let (column, row) = (n % cells[0], n / cells[0]);
+                if !(column + row).is_multiple_of(2) {
+                    quads.quad(field(column, row, [1, 1]).map(|p| add(p, front)), colours[1]);
+                }
+            }
+        };
+    let (across, along, up) = ([80.0, 0.0, 0.0], [0.0, 0.0, WALL + 20.0], [0.0, 40.0, 0.0]);
+    let floor = [[222, 214, 190], [168, 158, 132]];
+    chequered([-40.0, FLOOR, -20.0], [across, along], [16, 14], floor);
+    let wall = [[196, 206, 196], [150, 168, 158]];
+    chequered([-40.0, FLOOR, WALL], [across, up], [16, 8], wall);
     quads
 }
 

@@ -1,4 +1,4 @@
-//! Direct rendering beside an OpenGL implementation: pixel by pixel, and in time.
+//! Views drawn with OpenGL, compared with direct rendering pixel by pixel.
 //!
 //! The renderer is Mesa's llvmpipe, off screen, with 8 subpixel bits. It is given the snapped
 //! corners, so that what is compared is scan conversion, the top-left rule and the depth test.
@@ -7,9 +7,11 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use thiserror::Error;
+use wheatstone_golden::direct::Direct;
 use wheatstone_golden::formats::{Eye, Formats, DEPTH_MAX, FRACTION_BITS};
 use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::setup::{Attributes, Polygon};
+use wheatstone_golden::texture::Lookup;
 
 /// Pixels drawn around the view, as many as the guard band has.
 const MARGIN: u32 = 1024;
@@ -116,11 +118,7 @@ impl Renderer {
 }
 
 /// What an eye sees of polygons, as triangles for OpenGL, and the index of each one's polygon.
-pub fn triangles(
-    polygons: &[Polygon],
-    eye: Eye,
-    formats: &Formats,
-) -> (Vec<[[f64; 3]; 3]>, Vec<u32>) {
+fn triangles(polygons: &[Polygon], eye: Eye, formats: &Formats) -> (Vec<[[f64; 3]; 3]>, Vec<u32>) {
     let (mut triangles, mut owner) = (Vec::new(), Vec::new());
     for (index, polygon) in (0..).zip(polygons) {
         if !polygon.eyes.contains(eye) {
@@ -141,7 +139,7 @@ pub fn triangles(
 }
 
 /// For each pixel the polygon whose triangle was drawn there, [`NO_ID`] for the background.
-pub fn owners(drawn: &Drawn, owner: &[u32]) -> Vec<u32> {
+fn owners(drawn: &Drawn, owner: &[u32]) -> Vec<u32> {
     let owner = |&triangle: &u32| owner.get(triangle as usize).copied().unwrap_or(NO_ID);
     drawn.triangles.iter().map(owner).collect()
 }
@@ -159,9 +157,59 @@ pub struct Differences {
     pub first: Option<String>,
 }
 
+impl Differences {
+    fn plus(self, other: Differences) -> Differences {
+        Differences {
+            pixels: self.pixels + other.pixels,
+            ties: self.ties + other.ties,
+            wrong: self.wrong + other.wrong,
+            first: self.first.or(other.first),
+        }
+    }
+}
+
+/// Both views drawn directly and with OpenGL.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// What differs.
+    pub differences: Differences,
+    /// Seconds that OpenGL takes for both views.
+    pub seconds: f64,
+    /// Name of the renderer.
+    pub name: String,
+}
+
+/// Draws both views of polygons directly and with OpenGL and compares them. OpenGL draws `rounds`
+/// times.
+pub fn compare_views(
+    renderer: &Renderer,
+    polygons: &[Polygon],
+    size: [u32; 2],
+    formats: &Formats,
+    rounds: u32,
+) -> Result<Comparison, OpenGlError> {
+    // Ids are positions in the list.
+    let polygons: Vec<Polygon> =
+        (0..).zip(polygons).map(|(id, p)| Polygon { id, ..p.clone() }).collect();
+    let direct = Direct { formats: *formats, textures: &[], lookup: Lookup::Nearest };
+    let mut all =
+        Comparison { differences: Differences::default(), seconds: 0.0, name: String::new() };
+    for eye in Eye::BOTH {
+        let mut frame = Frame::new(size[0], size[1], [0; 3]);
+        polygons.iter().for_each(|polygon| direct.draw(polygon, eye, &mut frame));
+        let (triangles, owner) = triangles(&polygons, eye, formats);
+        let drawn = renderer.draw(size, &triangles, rounds)?;
+        let found = compare(&frame, &owners(&drawn, &owner), &polygons, eye, formats);
+        all.differences = all.differences.plus(found);
+        all.seconds += drawn.seconds;
+        all.name = drawn.name;
+    }
+    Ok(all)
+}
+
 /// Compares a view with what OpenGL drew. The ids of the frame are positions in `polygons`, as
 /// those of `theirs` are, see [`owners`].
-pub fn compare(
+fn compare(
     frame: &Frame,
     theirs: &[u32],
     polygons: &[Polygon],
