@@ -86,21 +86,17 @@ pub fn next_view<const IDS: bool>(
     }
 }
 
-/// Draws polygons that setup takes: what the first eye sees directly, and the other view from the
-/// polygons that are visible to it. A polygon behind a translucent one counts as hidden.
-pub fn derived(job: &Job, first: Eye, meter: &mut impl Meter) -> [Frame; 2] {
+/// The other eye's view of polygons that setup takes, drawn directly from those that the first view
+/// shows; the first view is `from`'s, drawn directly. A polygon behind a translucent one counts as hidden.
+pub fn other_eye(job: &Job, first: &Frame, from: Eye, meter: &mut impl Meter) -> Frame {
     let formats = Formats::new(&job.config);
     let direct = Direct { formats, textures: job.textures, lookup: job.lookup };
-    let mut frames = Eye::BOTH.map(|_| Frame::new(job.width, job.height, job.background));
-    let frame = &mut frames[first as usize];
-    pieces(job.polygons).for_each(|polygon| direct.draw_metered(&polygon, first, frame, meter));
     let most = job.polygons.iter().map(|polygon| polygon.id + 1).max().unwrap_or(0);
     let mut visible = Visible::new(most as usize);
-    visible.find(&frame.id, meter);
-    let second = first.other();
-    let frame = &mut frames[second as usize];
+    visible.find(&first.id, meter);
+    let mut frame = Frame::new(job.width, job.height, job.background);
     for polygon in pieces(job.polygons).filter(|polygon| visible.contains(polygon.id)) {
-        direct.draw_metered(&polygon, second, frame, meter);
+        direct.draw_metered(&polygon, from.other(), &mut frame, meter);
     }
-    frames
+    frame
 }

@@ -85,11 +85,11 @@ impl ZBuffer {
         meter: &mut impl Meter,
     ) {
         let Some(polygon) = self.project(corners, meter) else { return };
-        let Some(plane) = polygon.depth_plane() else { return };
         let rows = self.edges(&polygon, meter);
         if rows.is_empty() {
             return;
         }
+        let Some(plane) = polygon.depth_plane() else { return };
         meter.note(|work| work.polygons += 1);
         let Frame { width, colour, depth, id, .. } = &mut self.frame;
         let width = *width as usize;
