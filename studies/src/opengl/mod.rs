@@ -5,10 +5,8 @@ mod renderer;
 pub use renderer::{compare_views, Comparison, Differences, Drawn, OpenGlError, Renderer};
 
 use crate::p_buffer::measure::Office;
-use crate::{Check, Report, Row, StudyError, Table};
-use std::hint::black_box;
+use crate::{timing, Check, Report, Row, StudyError, Table};
 use std::path::Path;
-use std::time::Instant;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::{Eye, Formats};
 use wheatstone_golden::scene;
@@ -19,7 +17,7 @@ use wheatstone_golden::work::Unmetered;
 
 const SIZE: [u32; 2] = [640, 480];
 /// Runs of each renderer; the shortest counts.
-const ROUNDS: u32 = 7;
+const ROUNDS: usize = 7;
 
 /// Runs the experiment. Without a renderer its table says what to install.
 pub fn run(_: &Path) -> Result<Report, StudyError> {
@@ -45,7 +43,8 @@ fn compare(office: &Office) -> Result<Table, StudyError> {
     let formats = Formats::new(&config);
     let geometry = office.scene.geometry(&formats, &scene::Options::default())?;
     let polygons = &geometry.polygons;
-    let views = |renderer: &Renderer| compare_views(renderer, polygons, SIZE, &formats, ROUNDS);
+    let views =
+        |renderer: &Renderer| compare_views(renderer, polygons, SIZE, &formats, ROUNDS as u32);
     let all_threads = views(&renderer)?;
     renderer.threads = Some(1);
     let one_thread = views(&renderer)?;
@@ -59,14 +58,15 @@ fn compare(office: &Office) -> Result<Table, StudyError> {
         textures: &geometry.textures,
         lookup: Lookup::Nearest,
     };
-    let direct = seconds(|| job.direct());
+    let direct = timing::shortest(ROUNDS, || job.direct()).as_secs_f64();
     let mut buffers = Eye::BOTH.map(|eye| office.buffer(office.eyes[eye as usize]));
-    let pipeline = seconds(|| {
+    let pipeline = timing::shortest(ROUNDS, || {
         for (buffer, view) in buffers.iter_mut().zip(office.eyes) {
             buffer.clear::<true>(view, office.scene.background);
             buffer.draw_all::<true>(&office.model, &mut Unmetered);
         }
-    });
+    })
+    .as_secs_f64();
     let differences = &one_thread.differences;
     let row =
         |what: &str, here: f64, digits: usize, check: Check| Row::new(what, here, digits, check);
@@ -88,14 +88,4 @@ fn compare(office: &Office) -> Result<Table, StudyError> {
         one_thread.name
     );
     Ok(Table { title, rows })
-}
-
-/// Seconds of the shortest run.
-fn seconds<T>(mut code: impl FnMut() -> T) -> f64 {
-    let mut run = || {
-        let start = Instant::now();
-        black_box(code());
-        start.elapsed().as_secs_f64()
-    };
-    (0..ROUNDS).map(|_| run()).fold(f64::MAX, f64::min)
 }
