@@ -12,8 +12,12 @@ pub struct Quads {
 }
 
 impl Quads {
-    /// A planar convex quadrilateral, its front counter-clockwise as seen, in exactly this colour.
-    pub fn plain(&mut self, corners: [Vec3; 4], colour: [u8; 3]) {
+    /// A planar convex quadrilateral, its front counter-clockwise as seen. Its colour is dimmed by
+    /// the direction that it faces: brightest from above, darkest from below.
+    pub fn quad(&mut self, corners: [Vec3; 4], colour: [u8; 3]) {
+        let [x, y, z] = unit(outward(corners[0], corners[1], corners[2]));
+        let light = 0.76 + 0.18 * y - 0.06 * z - 0.1 * x;
+        let colour = colour.map(|n| (f64::from(n) * light).round_ties_even() as u8);
         let first = self.mesh.positions.len() as u32;
         self.mesh.positions.extend(corners);
         for n in 1..3 {
@@ -22,14 +26,6 @@ impl Quads {
             self.colours.push(colour);
         }
         self.count += 1;
-    }
-
-    /// The same, its colour dimmed by the direction that it faces: brightest from above, darkest
-    /// from below.
-    pub fn quad(&mut self, corners: [Vec3; 4], colour: [u8; 3]) {
-        let [x, y, z] = unit(outward(corners[0], corners[1], corners[2]));
-        let light = 0.76 + 0.18 * y - 0.06 * z - 0.1 * x;
-        self.plain(corners, colour.map(|n| (f64::from(n) * light).round_ties_even() as u8));
     }
 
     /// All six sides of a box between two opposite corners.
