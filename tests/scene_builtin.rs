@@ -1,12 +1,15 @@
 //! The built-in scenes: the teapot's shape, and that each shows what its description says.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use wheatstone_golden::config::Config;
+use wheatstone_golden::direct::Direct;
 use wheatstone_golden::formats::{Eye, Formats, DEPTH_MAX};
+use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::scene::builtin::{scene as builtin, teapot, SCENES};
 use wheatstone_golden::scene::vector::{dot, outward, sub, Vec3};
 use wheatstone_golden::scene::{Geometry, Options, Scene};
 use wheatstone_golden::setup::{Eyes, Polygon, Vertex};
+use wheatstone_golden::texture::Lookup;
 
 const WIDE: Formats = Formats::new(&Config::DEFAULT);
 const NARROW: Formats = Formats::new(&Config::PAPER);
@@ -213,4 +216,52 @@ fn corners_of_ties_lie_on_pixel_centres() {
     assert!(depths.windows(3).any(|d| d[0] == d[1] && d[1] == d[2]));
     assert_eq!(seen.counts.empty, 2);
     assert!(seen.polygons.iter().any(|p| area(p, Eye::Left) == 0 && area(p, Eye::Right) != 0));
+}
+
+/// Ids of the polygons that an eye sees.
+fn seen(scene: &Scene, eye: Eye) -> BTreeSet<u32> {
+    let direct = Direct { formats: WIDE, textures: &[], lookup: Lookup::Nearest };
+    let mut frame = Frame::new(scene.width, scene.height, scene.background);
+    geometry(scene).polygons.iter().for_each(|p| direct.draw(p, eye, &mut frame));
+    frame.id.into_iter().filter(|&id| id != NO_ID).collect()
+}
+
+/// Heo, Jung and Wohn 1998, table 1: polygons visible to the right eye at 300 x 300 pixels, for one to
+/// fifteen rooms.
+const VISIBLE: [usize; 15] =
+    [301, 474, 536, 569, 584, 604, 617, 623, 626, 632, 634, 636, 638, 638, 640];
+
+#[test]
+fn as_many_polygons_of_the_office_are_visible_as_were_published() {
+    for (rooms, published) in (1..).zip(VISIBLE) {
+        let scene = builtin(&format!("office-{rooms}"), 300, 300).expect("there is one");
+        assert_eq!(scene.meshes.iter().map(|m| m.id_count()).sum::<usize>(), 3652 * rooms);
+        let visible = seen(&scene, Eye::Right).len();
+        let off = visible as f64 / published as f64 - 1.0;
+        println!("{rooms} rooms: {visible}, {:+.1} %", 100.0 * off);
+        assert!(off.abs() <= 0.06, "{rooms} rooms: {visible} visible, published {published}");
+    }
+    let whole = builtin("office", 300, 300).expect("there is one");
+    assert_eq!(whole.meshes, builtin("office-15", 300, 300).expect("the same").meshes);
+    for name in ["office-0", "office-16", "office-", "office-x"] {
+        let error = builtin(name, 300, 300).expect_err("no such scene").to_string();
+        assert!(error.contains(name) && error.contains("office"), "{error}");
+    }
+}
+
+#[test]
+fn one_eye_alone_sees_what_the_perception_scenes_hide() {
+    // Ids of the blue cylinder follow those of floor, wall and red cylinder; the slot's end is
+    // the first polygon of the solid.
+    let surroundings = 2 + (16 * 14 + 16 * 8) / 2;
+    let blue = surroundings + 36..surroundings + 72;
+    let slot = surroundings..surroundings + 1;
+    for (name, hidden, least) in [("perception-cylinder", blue, 10), ("perception-solid", slot, 1)]
+    {
+        let scene = builtin(name, 640, 480).expect(name);
+        let [left, right] = Eye::BOTH.map(|eye| seen(&scene, eye));
+        let of = |ids: &BTreeSet<u32>| hidden.clone().filter(|id| ids.contains(id)).count();
+        assert_eq!(of(&left), 0, "{name}");
+        assert!(of(&right) >= least, "{name}: {}", of(&right));
+    }
 }

@@ -85,6 +85,15 @@ impl Frame {
         }
     }
 
+    /// Clears colours and depths, and with `IDS` the ids.
+    pub fn clear<const IDS: bool>(&mut self, background: [u8; 3]) {
+        self.colour.fill(background);
+        self.depth.fill(DEPTH_MAX);
+        if IDS {
+            self.id.fill(NO_ID);
+        }
+    }
+
     /// Position of a pixel in the vectors; none outside.
     pub fn index(&self, x: i64, y: i64) -> Option<usize> {
         let inside =

@@ -8,6 +8,8 @@ pub mod compare;
 pub mod filter;
 pub mod height_field;
 pub mod nasa;
+pub mod opengl;
+pub mod p_buffer;
 pub mod plot;
 pub mod prepared;
 pub mod report;
@@ -33,8 +35,14 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order they are run.
-pub const EXPERIMENTS: &[Experiment] =
-    &[filter::EXPERIMENT, adelson::EXPERIMENT, nasa::EXPERIMENT, height_field::EXPERIMENT];
+pub const EXPERIMENTS: &[Experiment] = &[
+    filter::EXPERIMENT,
+    adelson::EXPERIMENT,
+    p_buffer::EXPERIMENT,
+    opengl::EXPERIMENT,
+    nasa::EXPERIMENT,
+    height_field::EXPERIMENT,
+];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]
@@ -42,6 +50,9 @@ pub enum StudyError {
     /// A scene cannot be drawn.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// Nothing could be drawn with OpenGL.
+    #[error(transparent)]
+    OpenGl(#[from] opengl::OpenGlError),
     /// A picture, a plot or a table could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),

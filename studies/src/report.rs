@@ -214,6 +214,9 @@ impl fmt::Display for Table {
             ]);
         }
         writeln!(f, "{}", self.title)?;
+        if self.rows.is_empty() {
+            return Ok(());
+        }
         writeln!(f, "{table}")?;
         for (index, erratum) in errata.iter().enumerate() {
             writeln!(f, "  [{}] {erratum}", index + 1)?;

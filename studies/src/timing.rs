@@ -21,11 +21,6 @@ pub fn ratio<A, B>(
     mut first: impl FnMut() -> A,
     mut second: impl FnMut() -> B,
 ) -> Ratio {
-    fn time<T>(code: &mut impl FnMut() -> T) -> Duration {
-        let start = Instant::now();
-        black_box(code());
-        start.elapsed().max(Duration::from_nanos(1))
-    }
     // Once for caches and branch predictors.
     time(&mut first);
     time(&mut second);
@@ -44,4 +39,15 @@ pub fn ratio<A, B>(
     }
     ratios.sort_by(f64::total_cmp);
     Ratio { median: ratios[ratios.len() / 2], first: least[0], second: least[1] }
+}
+
+/// The shortest of some runs of a piece of code.
+pub fn shortest<T>(runs: usize, mut code: impl FnMut() -> T) -> Duration {
+    (0..runs).map(|_| time(&mut code)).min().unwrap_or_default()
+}
+
+fn time<T>(code: &mut impl FnMut() -> T) -> Duration {
+    let start = Instant::now();
+    black_box(code());
+    start.elapsed().max(Duration::from_nanos(1))
 }

@@ -1,13 +1,16 @@
 //! The methods that are compared.
 
-use super::{Method, Pair, Timed};
+use super::{Method, Pair, Timed, Unsuited};
 use crate::prepared::Prepared;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::{Frame, Frames};
 use wheatstone_golden::primary::Counts;
+use wheatstone_golden::projection::Kind;
 use wheatstone_golden::setup::{Eyes, Polygon};
 use wheatstone_golden::stereo::Job;
-use wheatstone_golden::work::{Unmetered, Work};
+use wheatstone_golden::visibility::p_buffer;
+use wheatstone_golden::visibility::warping::{self, Disparity, Warped};
+use wheatstone_golden::work::{Meter, Unmetered, Work};
 
 /// All methods, in the order of the table.
 pub const METHODS: &[Method] = &[
@@ -22,6 +25,37 @@ pub const METHODS: &[Method] = &[
             Ok(Pair { frames: [left, right], work, holes: None })
         },
         timed: Timed::Second(|prepared, _| prepared.job().view(Eye::Right, &mut Unmetered)),
+    },
+    Method {
+        name: "warping",
+        description: "pixels of the first view moved by their disparity",
+        draw: |prepared| {
+            let mut work = Work::default();
+            let job = prepared.job();
+            let left = job.view(Eye::Left, &mut Unmetered);
+            let warped = warp(prepared, &left, &mut work)?;
+            let holes = warped.sources.iter().filter(|&&sources| sources == 0).count() as u64;
+            Ok(Pair { frames: [left, warped.frame], work, holes: Some(holes) })
+        },
+        timed: Timed::Second(|prepared, left| match warp(prepared, left, &mut Unmetered) {
+            Ok(warped) => warped.frame,
+            // Only scenes that can be drawn are timed.
+            Err(_) => left.clone(),
+        }),
+    },
+    Method {
+        name: "p-buffer",
+        description: "the polygons that the first view shows, drawn for the second",
+        draw: |prepared| {
+            let mut work = Work::default();
+            let job = prepared.job();
+            let left = job.view(Eye::Left, &mut Unmetered);
+            let right = p_buffer::other_eye(&job, &left, Eye::Left, &mut work);
+            Ok(Pair { frames: [left, right], work, holes: None })
+        },
+        timed: Timed::Second(|prepared, left| {
+            p_buffer::other_eye(&prepared.job(), left, Eye::Left, &mut Unmetered)
+        }),
     },
     Method {
         name: "sam-minimal",
@@ -42,6 +76,19 @@ pub const METHODS: &[Method] = &[
         },
     },
 ];
+
+/// The right view, warped from the left one.
+fn warp(prepared: &Prepared, left: &Frame, meter: &mut impl Meter) -> Result<Warped, Unsuited> {
+    let rig = &prepared.scene.rig;
+    let moves_pixels_only =
+        matches!(rig.projection.kind(), Kind::TwoCentres | Kind::Shear | Kind::Translate)
+            && rig.head_tilt == 0.0;
+    if !moves_pixels_only {
+        return Err(Unsuited("warping knows disparities of level eyes at two centres only".into()));
+    }
+    let disparity = Disparity::new(rig, Eye::Left);
+    Ok(warping::other_eye(left, Eye::Left, &disparity, prepared.job().background, meter))
+}
 
 /// Both views by a system.
 fn both(job: &Job, minimal: bool) -> Vec<Frame> {

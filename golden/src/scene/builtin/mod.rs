@@ -1,12 +1,16 @@
 //! The built-in scenes.
 //!
 //! `teapot` and `room` are pictures to look at, in centimetres in front of a screen of at least
-//! 32 × 24 cm, `atoms` is a height field, in inches. The others are small and each show one thing; their lengths are pixels of a
+//! 32 × 24 cm, as are the two of perception; `atoms` is a height field, in inches; `office` is in
+//! metres. The others are small and each show one thing; their lengths are pixels of a
 //! 640 × 480 picture, scaled with the size, except in `ties`, where they are pixels at any size.
 
 mod diagnostic;
 mod edges;
+pub mod office;
 mod paint;
+mod perception;
+mod quads;
 mod room;
 mod shapes;
 mod teapot;
@@ -31,7 +35,7 @@ pub struct Builtin {
 }
 
 /// All built-in scenes.
-pub const SCENES: [Builtin; 10] = [
+pub const SCENES: [Builtin; 13] = [
     Builtin {
         name: "teapot",
         description: "the Utah teapot, from its 32 patches: 6,320 smooth, glossy triangles",
@@ -85,15 +89,35 @@ pub const SCENES: [Builtin; 10] = [
             "polygons that leave the windows, the guard bands and the near plane on all sides",
         build: edges::windows,
     },
+    Builtin {
+        name: "office",
+        description:
+            "fifteen office rooms of 3,652 polygons; office-1 to office-14 have fewer rooms",
+        build: |width, height| office::scene(width, height, office::ROOMS),
+    },
+    Builtin {
+        name: "perception-cylinder",
+        description:
+            "a blue cylinder behind a red one: the right eye sees it, the left one does not",
+        build: perception::cylinder,
+    },
+    Builtin {
+        name: "perception-solid",
+        description: "a block with a slot, whose end the right eye sees and the left one does not",
+        build: perception::solid,
+    },
 ];
 
 /// Makes a built-in scene for views of this size.
 pub fn scene(name: &str, width: u32, height: u32) -> Result<Scene, SceneError> {
+    check_size(width, height, SIZE_LIMIT)?;
+    if let Some(rooms) = office::rooms(name) {
+        return Ok(office::scene(width, height, rooms));
+    }
     let builtin = SCENES.iter().find(|s| s.name == name).ok_or_else(|| SceneError::Unknown {
         name: name.into(),
         builtin: SCENES.iter().map(|s| s.name).collect(),
     })?;
-    check_size(width, height, SIZE_LIMIT)?;
     Ok((builtin.build)(width, height))
 }
 

@@ -1,0 +1,317 @@
+//! Heo, Jung and Wohn 1998: visible polygons, the cost of the second view, and what it shows wrongly.
+
+pub mod measure;
+mod pictures;
+mod published;
+mod walk;
+
+use crate::plot::{self, Series};
+use crate::{Check, Experiment, Report, Row, StudyError, Table};
+use measure::{Measured, Office};
+use published::{FULL_LEFT, FULL_RIGHT, POLYGONS, P_BUFFER_LEFT, P_BUFFER_RIGHT, ROOMS, VISIBLE};
+use std::path::{Path, PathBuf};
+use walk::Walk;
+
+/// The experiment.
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "p-buffer",
+    description: "visible polygons, the cost and the errors of P-buffer and image warping",
+    run,
+};
+
+/// Runs the experiment.
+fn run(folder: &Path) -> Result<Report, StudyError> {
+    let measured = (1..=ROOMS)
+        .map(|rooms| Ok(Office::of_rooms(rooms)?.measure()))
+        .collect::<Result<Vec<Measured>, StudyError>>()?;
+    let walk = walk::walk(ROOMS)?;
+    let mut files = plots(folder, &measured, &walk)?;
+    files.extend(pictures::write(folder)?);
+    Ok(Report {
+        experiment: "p-buffer".into(),
+        publication: "Heo, Jung and Wohn 1998, Fast Generation of Stereoscopic Virtual Environment Display Using P-buffer".into(),
+        tables: vec![
+            polygons(&measured),
+            times(&measured),
+            ratios(&measured),
+            work(&measured),
+            wrong(&measured),
+            moving(&measured, &walk),
+        ],
+        files,
+    })
+}
+
+/// "1 room", "2 rooms".
+fn rooms(n: usize) -> String {
+    format!("{} room{}", n + 1, if n == 0 { "" } else { "s" })
+}
+
+fn polygons(measured: &[Measured]) -> Table {
+    let rows = measured.iter().enumerate().flat_map(|(n, m)| {
+        let all = Row::new(rooms(n) + ": polygons", m.polygons as f64, 0, Check::Within(0.002));
+        let visible = Row::new(rooms(n) + ": visible", m.visible as f64, 0, Check::Within(0.06));
+        [all.printed(POLYGONS[n].into()), visible.printed(VISIBLE[n].into())]
+    });
+    Table { title: "Table 1: polygons and visible polygons".into(), rows: rows.collect() }
+}
+
+fn times(measured: &[Measured]) -> Table {
+    let unit = measured[0].full[0];
+    let rows = measured.iter().enumerate().flat_map(|(n, m)| {
+        let row = |what: &str, printed: f64, here: f64| {
+            let what = format!("{}: {what}", rooms(n));
+            Row::new(what, here / unit, 2, Check::Trend).printed(printed / FULL_RIGHT[0])
+        };
+        [
+            row("full, right", FULL_RIGHT[n], m.full[0]),
+            row("full, left", FULL_LEFT[n], m.full[1]),
+            row("P-buffer, right", P_BUFFER_RIGHT[n], m.p_buffer[0]),
+            row("P-buffer, left", P_BUFFER_LEFT[n], m.p_buffer[1]),
+        ]
+    });
+    let title = format!(
+        "Table 1: times as multiples of the full pipeline's right view of one room ({} s there, {unit:.3} ms here)",
+        FULL_RIGHT[0]
+    );
+    Table { title, rows: rows.collect() }
+}
+
+/// A straight line by least squares: its value at 0 and its slope.
+fn fit(points: &[(f64, f64)]) -> [f64; 2] {
+    let count = points.len() as f64;
+    let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let product: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    let square: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
+    [y - product / square * x, product / square]
+}
+
+/// Times of the four columns against the number of polygons.
+struct Columns {
+    full: [Vec<(f64, f64)>; 2],
+    p_buffer: [Vec<(f64, f64)>; 2],
+}
+
+impl Columns {
+    fn printed() -> Columns {
+        let column = |times: [f64; ROOMS]| POLYGONS.map(f64::from).into_iter().zip(times).collect();
+        Columns {
+            full: [column(FULL_RIGHT), column(FULL_LEFT)],
+            p_buffer: [column(P_BUFFER_RIGHT), column(P_BUFFER_LEFT)],
+        }
+    }
+
+    fn here(measured: &[Measured]) -> Columns {
+        let column = |time: &dyn Fn(&Measured) -> f64| {
+            measured.iter().map(|m| (m.polygons as f64, time(m))).collect()
+        };
+        Columns {
+            full: [column(&|m| m.full[0]), column(&|m| m.full[1])],
+            p_buffer: [column(&|m| m.p_buffer[0]), column(&|m| m.p_buffer[1])],
+        }
+    }
+
+    /// The number of polygons from which both views take less time with the P-buffer, between
+    /// rows of the table; the first row's if they always do.
+    fn break_even(&self) -> f64 {
+        let gain = |n: usize| {
+            let sum = |columns: &[Vec<(f64, f64)>; 2]| columns[0][n].1 + columns[1][n].1;
+            sum(&self.full) - sum(&self.p_buffer)
+        };
+        let polygons = |n: usize| self.full[0][n].0;
+        let Some(n) = (0..ROOMS).find(|&n| gain(n) >= 0.0) else { return f64::INFINITY };
+        if n == 0 {
+            return polygons(0);
+        }
+        let part = gain(n - 1) / (gain(n - 1) - gain(n));
+        polygons(n - 1) + part * (polygons(n) - polygons(n - 1))
+    }
+
+    /// Time for both views of the most rooms, full : P-buffer; and for the second view.
+    fn gains(&self) -> [f64; 2] {
+        let last = |column: &Vec<(f64, f64)>| column[ROOMS - 1].1;
+        let [full, p_buffer] =
+            [&self.full, &self.p_buffer].map(|both| both.iter().map(last).sum::<f64>());
+        [full / p_buffer, last(&self.full[1]) / last(&self.p_buffer[1])]
+    }
+}
+
+fn ratios(measured: &[Measured]) -> Table {
+    let (printed, here) = (Columns::printed(), Columns::here(measured));
+    let slope = |column: &Vec<(f64, f64)>| fit(column)[1];
+    // What costs the same whatever there is to draw, as a number of polygons.
+    let fixed = |column: &Vec<(f64, f64)>| {
+        let [start, slope] = fit(column);
+        start / slope
+    };
+    let growth = |columns: &Columns| slope(&columns.p_buffer[1]) / slope(&columns.full[1]);
+    let row = |what: &str, of: &dyn Fn(&Columns) -> f64, digits: usize, check: Check| {
+        Row::new(what, of(&here), digits, check).printed(of(&printed))
+    };
+    let first = measured[ROOMS - 1].first_ratio;
+    let printed_first = P_BUFFER_RIGHT[ROOMS - 1] / FULL_RIGHT[ROOMS - 1];
+    let rows = vec![
+        row("second view's growth, P-buffer : full pipeline", &growth, 3, Check::AtMost(0.02)),
+        Row::new("first view of 15 rooms, P-buffer : full pipeline", first, 2, Check::AtMost(1.15))
+            .printed(printed_first),
+        row(
+            "first view's growth, P-buffer : full pipeline",
+            &|c| slope(&c.p_buffer[0]) / slope(&c.full[0]),
+            2,
+            Check::Trend,
+        ),
+        row(
+            "fixed cost of the full pipeline, in polygons",
+            &|c| fixed(&c.full[0]),
+            0,
+            Check::Trend,
+        ),
+        row(
+            "polygons from which the P-buffer is faster for both views",
+            &Columns::break_even,
+            0,
+            Check::Trend,
+        ),
+        row(
+            "both views of 15 rooms, full pipeline : P-buffer",
+            &|c| c.gains()[0],
+            2,
+            Check::AtLeast(1.0),
+        ),
+        row(
+            "second view of 15 rooms, full pipeline : P-buffer",
+            &|c| c.gains()[1],
+            1,
+            Check::AtLeast(1.0),
+        ),
+    ];
+    let nanoseconds = 1e6 * slope(&here.full[0]);
+    let title = format!(
+        "Figure 17: straight lines through the times ({:.0} µs a polygon there, {nanoseconds:.0} ns here)",
+        1e6 * slope(&printed.full[0])
+    );
+    Table { title, rows }
+}
+
+fn work(measured: &[Measured]) -> Table {
+    let last = &measured[ROOMS - 1];
+    let row = |what: &str, view: usize, of: fn(&Measured, usize) -> u64, check: Check| {
+        let growth = of(last, view) as f64 / of(&measured[0], view) as f64;
+        Row::new(format!("{what}, 15 rooms : 1 room"), growth, 2, check)
+    };
+    let polygons = |m: &Measured, view: usize| m.work[view].polygons;
+    let tests = |m: &Measured, view: usize| m.work[view].depth_tests;
+    let rows = vec![
+        row("full pipeline: polygons scan-converted", 0, polygons, Check::Trend),
+        row("full pipeline: depth tests", 0, tests, Check::Trend),
+        row("P-buffer: polygons scan-converted", 1, polygons, Check::AtMost(2.25)),
+        row("P-buffer: depth tests", 1, tests, Check::AtMost(1.1)),
+    ];
+    Table { title: "Work of the left view, counted".into(), rows }
+}
+
+/// The least and the most of a figure over all numbers of rooms.
+fn range(measured: &[Measured], of: impl Fn(&Measured) -> f64) -> [f64; 2] {
+    let values = measured.iter().map(of);
+    values.fold([f64::MAX, f64::MIN], |[least, most], n| [least.min(n), most.max(n)])
+}
+
+fn wrong(measured: &[Measured]) -> Table {
+    let faults = |of: fn(&Measured) -> usize| move |m: &Measured| m.faults.percent(of(m));
+    let row = |what: &str, of: &dyn Fn(&Measured) -> f64, check: Check| {
+        let [least, most] = range(measured, of);
+        let least = Row::new(format!("{what}, least"), least, 2, Check::Trend).unit("%");
+        [least, Row::new(format!("{what}, most"), most, 2, check).unit("%")]
+    };
+    let [least, _] = range(measured, |m| m.faults.percent(m.faults.wrong()) / m.wrong);
+    let [_, misordered] = range(measured, |m| m.misordered as f64);
+    let rows = [
+        row("P-buffer: wrong pixels", &|m| m.wrong, Check::AtMost(0.54)),
+        row("warping: wrong pixels", &faults(|m| m.faults.wrong()), Check::AtMost(2.8)),
+        row("warping: holes", &faults(|m| m.faults.holes), Check::AtMost(1.65)),
+        row("warping: overlaps", &faults(|m| m.faults.overlaps), Check::AtMost(0.77)),
+        row("warping: bad pixels", &faults(|m| m.faults.bad()), Check::AtMost(1.1)),
+        row("of these something shows through", &faults(|m| m.faults.see_through), Check::Trend),
+    ];
+    let mut rows: Vec<Row> = rows.into_iter().flatten().collect();
+    rows.push(Row::new("warping : P-buffer, wrong pixels, least", least, 1, Check::AtLeast(5.0)));
+    let order = "pixels that overwriting in the right order and a depth test leave differently";
+    rows.push(Row::new(order, misordered, 0, Check::Digits).printed(0.0));
+    Table { title: "Figures 5 and 7, from the right to the left view".into(), rows }
+}
+
+fn moving(measured: &[Measured], walk: &Walk) -> Table {
+    let mut rows = Vec::new();
+    for (direction, way) in ["right", "left"].into_iter().enumerate() {
+        let what = |method: &str| format!("20 cm to the left, 3° to the {way}: {method}");
+        for (method, name, check) in
+            [(0, "P-buffer", Check::AtMost(1.6)), (1, "warping", Check::Trend)]
+        {
+            let [least, most] = range(measured, |m| m.moved[direction][method]);
+            let name = what(name);
+            rows.push(Row::new(format!("{name}, least"), least, 2, Check::Trend).unit("%"));
+            rows.push(Row::new(format!("{name}, most"), most, 2, check).unit("%"));
+        }
+        let [least, _] = range(measured, |m| m.moved[direction][1] / m.moved[direction][0]);
+        let name = what("warping : P-buffer, least");
+        rows.push(Row::new(name, least, 1, Check::AtLeast(5.0)));
+    }
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let row = |what: &str, here: f64, check| Row::new(what, here, 2, check).unit("%");
+    rows.extend([
+        row("walk: P-buffer, mean of all frames", mean(&walk.p_buffer), Check::Trend),
+        row("walk: P-buffer, worst frame", most(&walk.p_buffer), Check::Trend),
+        row("walk: warping, mean of all frames", mean(&walk.warping), Check::Trend),
+        row("walk: warping, worst frame", most(&walk.warping), Check::Trend),
+        row("walk: P-buffer of itself, after 1 frame", walk.chained[0], Check::Trend),
+        row("walk: P-buffer of itself, after 5 frames", walk.chained[4], Check::Trend),
+        row("walk: P-buffer of itself, after 20 frames", walk.chained[19], Check::Trend),
+    ]);
+    let ratio = mean(&walk.warping) / mean(&walk.p_buffer);
+    rows.push(Row::new("walk: warping : P-buffer, wrong pixels", ratio, 1, Check::AtLeast(5.0)));
+    Table { title: "Figures 3, 5 and 7, a viewer who moves: wrong pixels".into(), rows }
+}
+
+fn plots(folder: &Path, measured: &[Measured], walk: &Walk) -> Result<Vec<PathBuf>, StudyError> {
+    let (printed, here) = (Columns::printed(), Columns::here(measured));
+    let mut files = Vec::new();
+    let mut save = |name: &str, title: &str, axes: [&str; 2], series: &[Series]| {
+        let file = folder.join(name);
+        plot::lines(&file, title, axes, series)?;
+        files.push(file);
+        Ok::<(), StudyError>(())
+    };
+    let scaled = |columns: &[&Vec<(f64, f64)>], unit: f64| -> Vec<(f64, f64)> {
+        let sum = |n: usize| columns.iter().map(|column| column[n].1).sum::<f64>();
+        (0..ROOMS).map(|n| (columns[0][n].0 / 1000.0, sum(n) / unit)).collect()
+    };
+    let units = [here.full[0][0].1, FULL_RIGHT[0]];
+    for (name, title, views) in [
+        ("p_buffer_figure_17a.svg", "Figure 17 (a): the right view", 0..1),
+        ("p_buffer_figure_17b.svg", "Figure 17 (b): the left view", 1..2),
+        ("p_buffer_figure_17c.svg", "Figure 17 (c): both views", 0..2),
+    ] {
+        let mut series = Vec::new();
+        for (columns, unit, when) in [(&here, units[0], "here"), (&printed, units[1], "1998")] {
+            for (columns, method) in
+                [(&columns.full, "full pipeline"), (&columns.p_buffer, "P-buffer")]
+            {
+                let columns: Vec<_> = columns[views.clone()].iter().collect();
+                let name = format!("{method}, {when}");
+                series.push(Series { name, points: scaled(&columns, unit) });
+            }
+        }
+        let axes = ["thousand polygons", "multiples of one room's right view, full pipeline"];
+        save(name, title, axes, &series)?;
+    }
+    let frames = |values: &[f64]| (1..).zip(values).map(|(n, &y)| (f64::from(n), y)).collect();
+    let series = [
+        Series { name: "warping".into(), points: frames(&walk.warping) },
+        Series { name: "P-buffer".into(), points: frames(&walk.p_buffer) },
+        Series { name: "P-buffer of itself".into(), points: frames(&walk.chained) },
+    ];
+    save("p_buffer_walk.svg", "A walk through 15 rooms", ["frame", "wrong pixels, %"], &series)?;
+    Ok(files)
+}
