@@ -1,8 +1,10 @@
 //! The program as a user meets it: exit statuses, messages, and what a run leaves behind.
 
+mod common;
+
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
 /// The program, in a folder.
@@ -42,6 +44,54 @@ fn files(folder: &Path) -> Vec<String> {
         }
     }
     found
+}
+
+/// A workspace of its own: a copy of the Verilog, and a cache without models.
+struct Workspace {
+    folder: tempfile::TempDir,
+    _cache: tempfile::TempDir,
+}
+
+impl Workspace {
+    fn new() -> Workspace {
+        let (folder, cache) = (folder(&[]), common::fresh_cache());
+        let rtl = Path::new(env!("CARGO_MANIFEST_DIR")).join("../rtl");
+        fs::create_dir(folder.path().join("rtl")).expect("a folder");
+        for entry in fs::read_dir(rtl).expect("the Verilog") {
+            let entry = entry.expect("an entry");
+            fs::copy(entry.path(), folder.path().join("rtl").join(entry.file_name()))
+                .expect("copied");
+        }
+        fs::create_dir_all(folder.path().join("target/wheatstone")).expect("a folder");
+        let models = folder.path().join("target/wheatstone/models");
+        std::os::unix::fs::symlink(cache.path(), models).expect("a link");
+        Workspace { folder, _cache: cache }
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+}
+
+/// Names of the entries of a folder that begin with a point.
+fn hidden(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let is_hidden =
+        |path: &PathBuf| path.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
+    entries.filter(is_hidden).collect()
+}
+
+/// Starts the program and kills it as soon as `ready`.
+fn kill_when(folder: &Path, line: &str, ready: impl Fn() -> bool) {
+    let mut command = program(folder);
+    command.args(line.split_whitespace()).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().expect("started");
+    while !ready() {
+        assert!(child.try_wait().expect("a child").is_none(), "{line} ended too soon");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("killed");
+    child.wait().expect("ended");
 }
 
 /// A triangle in the scene format, with one text in it replaced.
@@ -201,8 +251,8 @@ fn a_killed_run_leaves_no_half_written_file() {
         let line = "render --scene room --method hybrid --out p --stereo anaglyph,wiggle";
         let mut child = program(folder.path())
             .args(line.split_whitespace())
-            .stdout(std::process::Stdio::null())
-            .stderr(std::process::Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
             .spawn()
             .expect("started");
         std::thread::sleep(Duration::from_millis(wait));
@@ -215,8 +265,35 @@ fn a_killed_run_leaves_no_half_written_file() {
 }
 
 #[test]
+fn a_killed_build_does_not_disturb_the_next() {
+    let workspace = Workspace::new();
+    let models = workspace.path().join("target/wheatstone/models");
+    let line = "cosim display --beats 100";
+    // The compiler is at work, and goes on when nobody waits for it any more.
+    kill_when(workspace.path(), line, || {
+        hidden(&models).iter().any(|folder| folder.join("cpp/model.cpp").exists())
+    });
+    assert_eq!(hidden(&models).len(), 1);
+    let output = run(workspace.path(), line);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert_eq!(hidden(&models), Vec::<PathBuf>::new());
+}
+
+#[test]
+fn a_killed_writer_of_packs_leaves_nothing_for_good() {
+    let folder = folder(&[]);
+    let packs = folder.path().join("p");
+    kill_when(folder.path(), "vectors sampler --beats 300000 --out p", || {
+        !hidden(&packs).is_empty()
+    });
+    assert_eq!(hidden(&packs).len(), 1);
+    let output = run(folder.path(), "vectors display --beats 10 --out p");
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert_eq!(fs::read_dir(&packs).expect("packs").count(), 1, "{:?}", hidden(&packs));
+}
+
+#[test]
 fn a_closed_pipe_is_no_panic() {
-    use std::process::Stdio;
     let folder = folder(&[]);
     let mut child = program(folder.path())
         .args(["cosim", "display", "--beats", "1000", "--jobs", "1"])

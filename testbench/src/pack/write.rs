@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::cases::Case;
+use crate::scratch::Scratch;
 use std::fs;
 use std::path::{Path, PathBuf};
 use wheatstone_golden::header::formats_header;
@@ -22,10 +23,7 @@ pub struct PackInfo {
 /// complete or not at all.
 pub fn write(case: &Case, seed: u64, rtl_blake3: &str, out: &Path) -> Result<PackInfo, PackError> {
     fs::create_dir_all(out).map_err(PackError::at(out))?;
-    let temporary = tempfile::Builder::new()
-        .prefix(&format!(".{}-", case.target.name()))
-        .tempdir_in(out)
-        .map_err(PackError::at(out))?;
+    let temporary = Scratch::new(out).map_err(PackError::at(out))?;
     let manifest = fill(case, seed, rtl_blake3, temporary.path())?;
     let folder = out.join(case.target.name());
     replace(temporary, &folder)?;
@@ -45,24 +43,15 @@ pub fn rtl_hash(rtl: &Path, module: &str) -> Result<String, PackError> {
 }
 
 /// Puts a finished folder in the place of an older one.
-fn replace(finished: tempfile::TempDir, folder: &Path) -> Result<(), PackError> {
-    use std::os::unix::fs::PermissionsExt;
-    let at = || PackError::at(folder);
-    // A temporary folder is private; a pack is not.
-    fs::set_permissions(finished.path(), fs::Permissions::from_mode(0o755)).map_err(at())?;
+fn replace(finished: Scratch, folder: &Path) -> Result<(), PackError> {
     if folder.exists() {
         if !folder.join(MANIFEST).exists() {
             let source = std::io::Error::other("exists and is no vector pack; it is left alone");
             return Err(PackError::File { path: folder.into(), source });
         }
-        fs::remove_dir_all(folder).map_err(at())?;
+        fs::remove_dir_all(folder).map_err(PackError::at(folder))?;
     }
-    let finished = finished.keep();
-    fs::rename(&finished, folder).map_err(|error| {
-        // Best effort: the error that matters is the first.
-        let _ = fs::remove_dir_all(&finished);
-        at()(error)
-    })
+    finished.persist(folder).map_err(PackError::at(folder))
 }
 
 fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manifest, PackError> {
