@@ -1,9 +1,9 @@
-//! Temporary folders that a killed process does not leave behind for good.
+//! Folders that are not left behind: temporary ones, also of killed processes, and empty ones.
 
 use std::fs::{self, File, Permissions};
 use std::io;
 use std::os::unix::fs::PermissionsExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 const PREFIX: &str = ".wheatstone-";
@@ -80,6 +80,24 @@ fn remove_if_free(folder: &Path) -> io::Result<()> {
     fs::remove_dir_all(folder)
 }
 
+/// Folders that were not there before: those that are empty are removed when this is dropped.
+pub(crate) struct Tidy(Vec<PathBuf>);
+
+impl Tidy {
+    /// A folder that may be made, and those above it.
+    pub fn new(folder: &Path) -> Tidy {
+        let missing = folder.ancestors().take_while(|f| !f.as_os_str().is_empty() && !f.exists());
+        Tidy(missing.map(Path::to_path_buf).collect())
+    }
+}
+
+impl Drop for Tidy {
+    fn drop(&mut self) {
+        // The lowest comes first; one with something in it cannot be removed.
+        self.0.iter().for_each(|folder| drop(fs::remove_dir(folder)));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,5 +120,18 @@ mod tests {
         second.persist(&parent.path().join("kept")).unwrap();
         let left = fs::read_dir(parent.path()).unwrap().count();
         assert_eq!(left, names.len(), "one of them went, one was kept");
+    }
+
+    #[test]
+    fn new_folders_stay_if_something_is_in_them() {
+        let parent = tempfile::tempdir().unwrap();
+        let (empty, used) = (parent.path().join("a/b/c"), parent.path().join("x/y/z"));
+        let tidy = [Tidy::new(&empty), Tidy::new(&used)];
+        fs::create_dir_all(&empty).unwrap();
+        fs::create_dir_all(&used).unwrap();
+        fs::write(parent.path().join("x/y/file"), "").unwrap();
+        drop(tidy);
+        assert!(!parent.path().join("a").exists());
+        assert!(!used.exists() && parent.path().join("x/y/file").exists());
     }
 }

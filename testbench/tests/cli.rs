@@ -71,6 +71,33 @@ impl Workspace {
     fn path(&self) -> &Path {
         self.folder.path()
     }
+
+    /// Copies the Verilog into another folder, with one text in it replaced.
+    fn plant(&self, copy: &str, file: &str, find: &str, replace: &str) {
+        let copy = self.path().join(copy);
+        fs::create_dir(&copy).expect("a folder");
+        for entry in fs::read_dir(self.path().join("rtl")).expect("the Verilog") {
+            let entry = entry.expect("an entry");
+            fs::copy(entry.path(), copy.join(entry.file_name())).expect("copied");
+        }
+        let text = fs::read_to_string(copy.join(file)).expect("a module");
+        assert_eq!(text.matches(find).count(), 1, "{file}: {find}");
+        fs::write(copy.join(file), text.replace(find, replace)).expect("written");
+    }
+
+    /// Runs a shell's command.
+    fn shell(&self, command: &str) -> Output {
+        let mut shell = Command::new("sh");
+        shell.current_dir(self.path()).args(["-c", command]).output().expect("sh")
+    }
+}
+
+/// What reports of mismatches say in the lines of that name.
+fn told(output: &Output, name: &str) -> Vec<String> {
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let (_, reports) = text.split_once("MISMATCH\n").expect("a report");
+    let lines = reports.lines().filter_map(|line| line.trim_start().strip_prefix(name));
+    lines.map(|line| line.trim().to_owned()).collect()
 }
 
 /// Names of the entries of a folder that begin with a point.
@@ -108,11 +135,14 @@ fn scene(find: &str, replace: &str) -> String {
 
 const OBJ: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
 
+/// Options, files given, and words of the message.
+type Refused<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a [&'a str]);
+
 /// Bad input, and what the message must say of it.
 #[test]
 fn bad_input_is_told_by_file_place_and_expectation() {
     let empty = folder(&[]);
-    let table: &[(&str, &[(&str, &str)], &[&str])] = &[
+    let table: &[Refused] = &[
         ("--scene a.obj", &[("a.obj", "v 0 0 0\nv 1 0\nf 1 1 1\n")], &["a.obj:2", "expected"]),
         ("--scene a.obj", &[("a.obj", "v 0 0 0\nv 1 0 x\n")], &["a.obj:2", "number", "found x"]),
         ("--scene a.obj", &[("a.obj", "v 0 0 nan\nf 1 1 1\n")], &["a.obj:1", "expected"]),
@@ -290,6 +320,82 @@ fn a_killed_writer_of_packs_leaves_nothing_for_good() {
     let output = run(folder.path(), "vectors display --beats 10 --out p");
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     assert_eq!(fs::read_dir(&packs).expect("packs").count(), 1, "{:?}", hidden(&packs));
+}
+
+/// Three cases fail side by side; their folders' names need quoting.
+#[test]
+fn every_failing_case_has_waves_of_its_own_and_a_command_that_repeats_it() {
+    let workspace = Workspace::new();
+    let program = env!("CARGO_BIN_EXE_wheatstone");
+    workspace.plant("it's $RTL", "sam_display.v", "width_i + ~point_x_i", "width_i - ~point_x_i");
+    let options =
+        r#"display --rtl "it's \$RTL" --out "o u t" --config paper --beats 40000 --jobs 3"#;
+    let output = workspace.shell(&format!("{program} cosim {options} --json 'a report'"));
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    let (what, waves) = (told(&output, "what"), told(&output, "waveforms"));
+    let repeat = told(&output, "repeat with");
+    assert_eq!([what.len(), waves.len(), repeat.len()], [3; 3], "{}", said(&output));
+    assert!(waves.iter().any(|file| *file == "o u t/display-random-seed1-run1.fst"), "{waves:?}");
+    for (n, file) in waves.iter().enumerate() {
+        assert!(!waves[..n].contains(file), "{waves:?}");
+        for end in ["fst", "gtkw", "sucl"] {
+            let file = workspace.path().join(file).with_extension(end);
+            assert!(fs::metadata(&file).is_ok_and(|f| f.len() > 100), "{}", file.display());
+        }
+    }
+    assert_eq!(hidden(&workspace.path().join("o u t")), Vec::<PathBuf>::new());
+
+    let report = fs::read_to_string(workspace.path().join("a report")).expect("the report");
+    for (command, what) in repeat.iter().zip(&what) {
+        let again = workspace.shell(command);
+        assert_eq!(again.status.code(), Some(1), "{command}: {}", said(&again));
+        assert_eq!(told(&again, "what"), [what.as_str()], "{command}");
+        assert_eq!(told(&again, "repeat with"), [command.as_str()]);
+    }
+    let same = fs::read_to_string(workspace.path().join("a report")).expect("the report");
+    assert!(report == same, "a repetition leaves the report alone");
+
+    let output = workspace.shell(&format!("{program} cosim display --case rndom"));
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(
+        text.contains("there are: “every mode, width 1”") && text.contains("“random”"),
+        "{text}"
+    );
+}
+
+/// A mismatch is told whatever becomes of the waveforms; without one it is an error.
+#[test]
+fn waves_without_room_are_told_and_leave_nothing() {
+    let workspace = Workspace::new();
+    workspace.plant("bug", "sam_display.v", "width_i + ~point_x_i", "width_i - ~point_x_i");
+    let cosim = "cosim display --beats 1000 --out o";
+    let run = |limit: &str, line: &str| {
+        let program = env!("CARGO_BIN_EXE_wheatstone");
+        workspace.shell(&format!("{limit} exec {program} {line}"))
+    };
+    let limit = "trap '' XFSZ; ulimit -f 16;";
+    let bug = format!("{cosim} --rtl bug --case random");
+    let (free, full) = (run("", &format!("{bug} --waves never")), run(limit, &bug));
+    assert_eq!([free.status.code(), full.status.code()], [Some(1); 2], "{}", said(&full));
+    assert_eq!(told(&free, "what"), told(&full, "what"));
+    let [line] = told(&full, "waveforms").try_into().expect("a line about the waveforms");
+    assert!(line.starts_with("failed because no room for waveforms in /"), "{line}");
+
+    let always = format!("{cosim} --waves always");
+    let output = run("", &always);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let made = files(&workspace.path().join("o"));
+    assert_eq!(made.iter().filter(|file| file.ends_with(".fst")).count(), 3, "{made:?}");
+    fs::remove_dir_all(workspace.path().join("o")).expect("removed");
+
+    for line in [always.as_str(), "waves display --out o/p"] {
+        let output = run(limit, line);
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+        assert!(text.contains("no room for waveforms in /"), "{line}: {text}");
+        assert!(!workspace.path().join("o").exists(), "{line} left a folder");
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::quality::Quality;
-use crate::regression::drawn_line;
+use crate::regression::{counted, drawn_line};
 use wheatstone_golden::formats::{Eye, Rgba};
 use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::picture::{colour_picture, id_picture, write_png, Composite, Views};
@@ -51,7 +51,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let direct_time = start.elapsed();
     let frames = match args.method {
         MethodChoice::Direct => {
-            say!("{} polygons, both views directly in {direct_time:.1?}", geometry.polygons.len());
+            let polygons = counted(geometry.polygons.len() as u64, "polygon");
+            say!("{polygons}, both views directly in {direct_time:.1?}");
             direct
         }
         method => {

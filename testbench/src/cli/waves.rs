@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::regression::{record_waves, Focus};
+use crate::scratch::Tidy;
 use wheatstone_golden::formats::Eye;
 
 #[derive(Debug, Args)]
@@ -58,6 +59,7 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
     };
     let job = geometry.as_ref().map(|geometry| job(&settings, geometry, settings.options));
     let out = args.out.clone().unwrap_or_else(|| output_folder("waves"));
+    let _tidy = Tidy::new(&out);
     std::fs::create_dir_all(&out).map_err(|source| WriteError { file: out.clone(), source })?;
     let rtl = args.stimulus.rtl()?;
     let builder = builder(false)?;
