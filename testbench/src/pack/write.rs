@@ -5,8 +5,7 @@ use crate::cases::Case;
 use crate::scratch::Scratch;
 use std::fs;
 use std::path::{Path, PathBuf};
-use wheatstone_golden::header::formats_header;
-use wheatstone_golden::interface::{Direction, Stream, Table};
+use wheatstone_golden::interface::Table;
 
 /// What was written.
 #[derive(Clone, Debug)]
@@ -88,15 +87,12 @@ fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manif
         rtl_blake3: rtl_blake3.into(),
         ports,
         bench: Vec::new(),
+        hash: String::new(),
     };
-    for (file, text) in [
-        ("vec.vh", replay::header(&manifest, &interface)),
-        ("replay.v", replay::bench(&manifest, &interface)),
-        // The Verilog includes it, and `-I PACK` is all that a simulator is told.
-        ("sam_formats.vh", formats_header()),
-    ] {
+    for (file, text) in replay::files(&manifest, &interface) {
         manifest.bench.push(save(folder, file, text.as_bytes())?);
     }
+    manifest.hash = manifest.digest();
     let json = serde_json::to_string_pretty(&manifest).map_err(|error| PackError::Manifest {
         path: folder.join(MANIFEST),
         line: error.line(),
@@ -116,13 +112,9 @@ fn port(stream: &Stream, table: &Table, folder: &Path) -> Result<Port, PackError
         pack(table.row(index), &fields, &mut bytes);
     }
     let text = mem_text(&bytes, beat_bytes, bits);
-    let direction = match stream.direction {
-        Direction::Input => "input",
-        Direction::Output => "output",
-    };
     Ok(Port {
         name: stream.name.into(),
-        direction: direction.into(),
+        direction: direction_name(stream).into(),
         answers: stream.answers.map(Into::into),
         beats: table.len() as u64,
         bits,
