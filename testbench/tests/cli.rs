@@ -399,6 +399,57 @@ fn waves_without_room_are_told_and_leave_nothing() {
 }
 
 #[test]
+fn a_viewer_that_does_not_open_is_an_error_of_one_line() {
+    let refuses = "echo 'Could not initialize GTK!' >&2; echo 'Usage: gtkwave' >&2; exit 0";
+    for (script, status) in [(refuses, 2), ("exit 7", 2), ("exec sleep 3", 0)] {
+        // Written by a process that ends before it is run: one that is open cannot be run.
+        let (folder, write) =
+            (folder(&[]), r##"printf '#!/bin/sh\n%s\n' "$1" >gtkwave; chmod +x gtkwave"##);
+        let mut shell = Command::new("sh");
+        shell.current_dir(folder.path()).args(["-c", write, "sh", script]);
+        assert!(shell.status().expect("sh").success());
+        let path = std::env::var("PATH").expect("a path");
+        let output = program(folder.path())
+            .args(["waves", "display", "--open", "--out", "."])
+            .env("PATH", format!("{}:{path}", folder.path().display()))
+            .output()
+            .expect("the program runs");
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(status), "{script}: {text}");
+        let errors = text.lines().filter(|line| line.starts_with("error: ")).count();
+        assert_eq!(errors, usize::from(status == 2), "{text}");
+        assert_eq!(text.contains("Could not initialize GTK!"), script == refuses, "{text}");
+        assert!(!text.contains("Usage"), "{text}");
+    }
+}
+
+/// From wherever the program is called, its models are where the workspace has them.
+#[test]
+fn no_models_are_left_where_the_program_is_called() {
+    let folder = folder(&[]);
+    let output = run(folder.path(), "cosim display --beats 100");
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let output = run(folder.path(), "waves display --scene ramp --pixel left,0,0");
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+}
+
+#[test]
+fn a_unit_takes_no_scene() {
+    let folder = folder(&[]);
+    for (line, unit) in [
+        ("cosim hybrid filter --scene ties", "filter"),
+        ("cosim filter --scene teapot", "filter"),
+        ("cosim hybrid display --scene ties", "display"),
+    ] {
+        let output = run(folder.path(), line);
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+        assert!(text.contains(&format!("--scene: {unit} draws no scenes")), "{line}: {text}");
+    }
+}
+
+#[test]
 fn a_closed_pipe_is_no_panic() {
     let folder = folder(&[]);
     let mut child = program(folder.path())
