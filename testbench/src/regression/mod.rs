@@ -423,14 +423,18 @@ fn random(ground: &Ground) -> Result<Entry, RegressionError> {
     Ok(entry)
 }
 
-/// Draws a scene twice: without stalls and with a steady memory, where throughput is measured, and
-/// with stalls and a memory of random latency.
+/// Draws a scene three times: without stalls and with a steady memory, where throughput is measured;
+/// then with a memory of random latency, once with stalls on both sides and once with back-pressure
+/// alone, which keeps everything inside full.
 fn draw(ground: &Ground, scene: &NamedScene) -> Result<Entry, RegressionError> {
     let (plan, target) = (ground.plan, ground.target);
     let mut entry = Entry::new(target, &scene.name);
     let steady = Some(plan.settings.latency.unwrap_or(MEASURED_LATENCY));
     let stalled = stalls_of(plan.seed.wrapping_mul(7).wrapping_add(8));
-    for (stalls, latency) in [(Stalls::NONE, steady), (stalled, plan.settings.latency)] {
+    let back_pressure = Pattern::ALL[1 + (plan.seed % 5) as usize];
+    let full = Stalls { idle: Pattern::None, back_pressure, seed: plan.seed };
+    let latency = plan.settings.latency;
+    for (stalls, latency) in [(Stalls::NONE, steady), (stalled, latency), (full, latency)] {
         let setting = Setting { latency, ..ground.setting(plan.seed, stalls) };
         let run = |setting: &Setting| run_scene(setting, target, &scene.job, |_| ());
         let SceneRan { ran, drawn, frames, simulation } = run(&setting)?;

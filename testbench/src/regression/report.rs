@@ -212,3 +212,21 @@ pub fn junit(entries: &[Entry]) -> Result<String, quick_junit::SerializeError> {
     report.add_test_suites(suites);
     report.to_string()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wheatstone_golden::targets::Target;
+
+    #[test]
+    fn one_is_singular() {
+        let counts = [0, 1, 2, 12_345].map(|n| counted(n, "beat"));
+        assert_eq!(counts, ["0 beats", "1 beat", "2 beats", "12,345 beats"]);
+        let mut entry = Entry::new(Target::Display, "random");
+        entry.compared = 1;
+        let text = table(&[entry]);
+        assert!(text.ends_with("1 case, 1 beat and 0 pixels compared, mismatches 0\n"), "{text}");
+        let drawn = Drawn { polygons: 1, ..Drawn::default() };
+        assert!(drawn_line(&drawn).starts_with("1 polygon, 0 derived"));
+    }
+}
