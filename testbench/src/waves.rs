@@ -379,7 +379,21 @@ fn letters(mut number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::letters;
+    use super::*;
+
+    #[test]
+    fn files_appear_all_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let content = |name: &str| (folder.path().join(name), name.as_bytes().to_vec());
+        let files = ["a", "b", "c"].map(content);
+        put(&files).unwrap();
+        assert!(files.iter().all(|(path, content)| fs::read(path).unwrap() == *content));
+        let files = ["x", "y", "z"].map(content);
+        fs::create_dir(&files[1].0).unwrap();
+        let error = put(&files).unwrap_err().to_string();
+        assert!(error.starts_with(&format!("cannot write {}", files[1].0.display())), "{error}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4, "a, b, c and the folder y");
+    }
 
     #[test]
     fn surfer_counts_with_letters() {

@@ -92,30 +92,40 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     console.finish();
     say!("{}", regression::table(&entries).trim_end());
     let command = command_line(arguments.iter().map(String::as_str));
+    let mut errors: Vec<String> = entries.iter().filter_map(unshown).collect();
+    errors.extend(write(args, &entries, &command, &out).err().map(|error| error.to_string()));
+    let mut failures = entries.iter().filter_map(|e| e.failure.as_ref()).peekable();
+    let status = match (failures.peek(), errors.is_empty()) {
+        (Some(_), _) => MISMATCH,
+        (None, false) => BAD_INPUT,
+        (None, true) => OK,
+    };
+    failures.for_each(|failure| say!("\nMISMATCH\n{failure}"));
+    errors.iter().for_each(|error| tell!("error: {error}"));
+    Ok(status)
+}
+
+/// Why waveforms that were asked for are not there.
+fn unshown(entry: &Entry) -> Option<String> {
+    let error = entry.waves_error.as_ref()?;
+    Some(format!("waveforms of {} {}: {error}", entry.target.name(), entry.name))
+}
+
+/// Writes reports and pictures.
+fn write(args: &CosimArgs, entries: &[Entry], command: &str, out: &Path) -> Result<(), Failure> {
     if let Some(file) = &args.json {
-        write_file(file, regression::json(&entries, &command).as_bytes())?;
+        write_file(file, regression::json(entries, command).as_bytes())?;
     }
     if let Some(file) = &args.junit {
-        let xml = regression::junit(&entries).map_err(|error| Failure::Input(error.to_string()))?;
+        let xml = regression::junit(entries).map_err(|error| Failure::Input(error.to_string()))?;
         write_file(file, xml.as_bytes())?;
     }
-    for entry in &entries {
-        for file in pictures(entry, &out)? {
+    for entry in entries {
+        for file in pictures(entry, out)? {
             say!("image {}", file.display());
         }
     }
-    let mut status = OK;
-    for entry in &entries {
-        if let Some(error) = &entry.waves_error {
-            tell!("error: waveforms of {} {}: {error}", entry.target.name(), entry.name);
-            status = BAD_INPUT;
-        }
-    }
-    for failure in entries.iter().filter_map(|e| e.failure.as_ref()) {
-        say!("\nMISMATCH\n{failure}");
-        status = MISMATCH;
-    }
-    Ok(status)
+    Ok(())
 }
 
 /// What is to be run.

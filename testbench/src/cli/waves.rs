@@ -1,7 +1,7 @@
 //! `wheatstone waves`.
 
 use super::*;
-use crate::regression::{record_waves, Focus};
+use crate::regression::{command_line, record_waves, Focus};
 use crate::scratch::Tidy;
 use crate::tools::GTKWAVE;
 use std::io::{Read, Seek};
@@ -93,7 +93,7 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
         say!("marker on cycle {marker}");
     }
     let view = waves.file.with_extension("gtkw");
-    say!("open with:  gtkwave {}", view.display());
+    say!("open with:  {}", command_line(["gtkwave", &view.to_string_lossy()]));
     if args.open {
         open(&view)?;
     }

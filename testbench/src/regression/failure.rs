@@ -340,13 +340,9 @@ impl fmt::Display for Failure {
         }
         if let Some(waves) = &self.waves {
             line("waveforms", Some(&waves.display()))?;
-            line(
-                "open with",
-                Some(&format!(
-                    "gtkwave {}",
-                    quoted(&waves.with_extension("gtkw").to_string_lossy())
-                )),
-            )?;
+            let view = waves.with_extension("gtkw");
+            let command = command_line(["gtkwave", &view.to_string_lossy()]);
+            line("open with", Some(&command))?;
         }
         Ok(())
     }
