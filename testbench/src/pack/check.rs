@@ -221,3 +221,22 @@ fn check_one(folder: &Path) -> Result<Checked, PackError> {
     checker.bench(&manifest, &interface)?;
     Ok(Checked { folder: folder.into(), manifest })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn parameters_decide_an_interface() {
+        let count: usize = PARAMETERS.iter().map(|p| p.values.len()).product();
+        assert_eq!(configurations().len(), count);
+        for target in Target::ALL {
+            let mut all: BTreeMap<Vec<(&str, u32)>, Interface> = BTreeMap::new();
+            for interface in configurations().iter().map(|config| target.interface(config)) {
+                let first = all.entry(interface.parameters.clone()).or_insert(interface.clone());
+                assert_eq!(*first, interface, "{}", target.name());
+            }
+        }
+    }
+}
