@@ -23,6 +23,7 @@ pub mod pack;
 mod ports;
 pub mod quality;
 pub mod regression;
+mod scratch;
 pub mod settings;
 mod shim;
 mod sources;

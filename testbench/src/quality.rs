@@ -1,5 +1,6 @@
 //! How far a derived pair of views is from direct rendering.
 
+use crate::regression::counted;
 use std::fmt;
 use wheatstone_golden::formats::{Eye, Rgba};
 use wheatstone_golden::frame::{Frame, NO_ID};
@@ -67,7 +68,7 @@ impl Quality {
 impl fmt::Display for Quality {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Quality { pixels, colours, ids, gaps, .. } = self;
-        let ratio = self.ratio();
-        write!(f, "{ratio}, {colours} of {pixels} colours, {ids} ids differ, {gaps} gaps")
+        let (ratio, gaps) = (self.ratio(), counted(*gaps as u64, "gap"));
+        write!(f, "{ratio}, differences: {colours} of {pixels} colours, {ids} ids; {gaps}")
     }
 }
