@@ -48,7 +48,9 @@ pub fn plan(targets: &[Target], settings: Settings, beats: u64) -> Plan<'static>
     Plan {
         targets: targets.to_vec(),
         settings,
+        program: "wheatstone".into(),
         words: Vec::new(),
+        case: None,
         scenes: Vec::new(),
         scenes_only: false,
         seed: 1,

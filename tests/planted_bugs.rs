@@ -1,8 +1,11 @@
 //! Planted bugs: one operator of the Verilog is changed, and the regression must notice and name the
 //! unit. Each bug is looked for by the unit's own test, where it has one, and inside a system.
 
+use wheatstone_golden::formats::Formats;
+use wheatstone_golden::scene;
+use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
-use wheatstone_testbench::regression::Entry;
+use wheatstone_testbench::regression::{Entry, NamedScene, Plan};
 use wheatstone_tests::*;
 
 /// Random beats of a run: the bugs of this file show in a fraction of the default regression.
@@ -356,6 +359,40 @@ fn slot_queue() {
         file,
         &[("(DEPTH_EXTERNAL != 0) |", "(DEPTH_EXTERNAL == 0) |")],
     );
+}
+
+/// A scene drawn by itself crosses back-pressure that keeps the queue full: only then does it hold two
+/// pixels of one place, and a read that does not wait is answered too early.
+#[test]
+fn slot_queue_in_one_scene() {
+    let copy = copy_of_rtl();
+    let (find, replace) = ("read_q & (blocked_q == {SLOTS{1'b0}})", "read_q");
+    plant(copy.path(), "sam_slot_queue.v", find, replace);
+    let settings = settings("default", &[]);
+    let formats = Formats::new(&settings.config);
+    let scene = scene::open("teapot", Some([160, 120]), None).expect("a built-in scene");
+    let geometry = scene.geometry(&formats, &scene::Options::default()).expect("it is sound");
+    let job = Job::of(&geometry, settings.config, settings.options, settings.lookup);
+    let mut plan: Plan = plan(&[Target::Hybrid], settings, BEATS);
+    // With the stalls of this seed on both sides, nothing shows.
+    (plan.seed, plan.scenes_only, plan.rtl) = (3, true, copy.path().to_owned());
+    plan.scenes = vec![NamedScene { name: "teapot".into(), job }];
+    let entries = run(&plan, &quick_builder());
+    let [Entry { failure: Some(failure), .. }] = &entries[..] else {
+        panic!("nothing was noticed")
+    };
+    assert_eq!((failure.unit.as_str(), failure.stalls[0]), ("slot_queue", "none"), "{failure}");
+    assert_eq!(
+        (failure.stream.as_deref(), failure.field.as_deref()),
+        (Some("response"), Some("rgb"))
+    );
+    // Values as in all other streams.
+    let [expected, actual] =
+        [&failure.expected, &failure.actual].map(|v| v.clone().unwrap_or_default());
+    assert!(expected.starts_with('#') && actual.len() == 7, "{failure}");
+    assert!(failure
+        .what
+        .contains(&format!("rgb expected {expected}, got {actual}; depth expected ")));
 }
 
 #[test]

@@ -238,11 +238,26 @@ fn a_manifest_that_contradicts_its_files_is_refused_by_field() {
         ("/bench/0/file", json!("../vec.vh"), &["field bench.../vec.vh", "without a folder"]),
         ("/ports/0/bin/file", json!(".."), &["field ports.beat.bin", "without a folder"]),
         ("/ports/0/bin/blake3", json!("ff"), &["field ports.beat.bin.blake3", "expected ff"]),
+        ("/ports/0/fields/3/signed", json!(true), &["field ports.beat.fields.rgba.signed: true"]),
+        ("/ports/0/fields/3/fraction", json!(2), &["field ports.beat.fields.rgba.fraction: 2"]),
+        ("/ports/0/fields/0/doc", json!("or not"), &["field ports.beat.fields.first.doc: or not"]),
+        ("/parameters/0/value", json!(7), &["field parameters: FILTER_TERMS=7", "FILTER_TERMS=0"]),
+        ("/parameters/0/name", json!("TERMS"), &["field parameters: TERMS=0", "FILTER_TERMS=0"]),
+        ("/parameters", json!([]), &["field parameters: , expected"]),
+        ("/statics", json!([{"name": "width", "value": 1}]), &["field statics: width"]),
+        ("/flags", json!([{"name": "error", "value": 0}]), &["field flags: error"]),
+        // What nothing else in the pack contradicts.
+        ("/parameters/0/value", json!(2), &["field hash"]),
+        ("/seed", json!(2), &["field hash"]),
+        ("/case", json!("a scene"), &["field hash"]),
+        ("/generator", json!("wheatstone 9.9.9"), &["field hash"]),
+        ("/rtl_blake3", json!("00"), &["field hash"]),
+        ("/hash", json!(""), &["field hash"]),
     ];
     for (at, value, words) in cases {
         let what = format!("{at} = {value}");
         // A wrong hash is a matter of the file that has another.
-        let file = if at.ends_with("blake3") { "beat.bin" } else { "manifest.json" };
+        let file = if at.ends_with("/blake3") { "beat.bin" } else { "manifest.json" };
         refused(&what, &[&[file], *words].concat(), |p| {
             p.manifest(|m| match m.pointer_mut(at) {
                 Some(field) => *field = value.clone(),
@@ -250,6 +265,61 @@ fn a_manifest_that_contradicts_its_files_is_refused_by_field() {
             });
         });
     }
+}
+
+/// Someone has made the hash fit: the files still say what the vectors are.
+#[test]
+fn a_manifest_that_contradicts_the_bench_is_refused_by_line() {
+    let with_hash = |p: &Sound, at: &str, value: Value| {
+        p.manifest(|m| {
+            *m.pointer_mut(at).expect("a field") = value;
+            let manifest: Manifest = serde_json::from_value(m.clone()).expect("a manifest");
+            m["hash"] = json!(manifest.digest());
+        });
+    };
+    for (at, value, line) in [
+        ("/parameters/0/value", json!(2), "vec.vh differs at line 5"),
+        ("/seed", json!(2), "vec.vh differs at line 1"),
+        ("/case", json!("a scene"), "vec.vh differs at line 1"),
+        ("/generator", json!("wheatstone 9.9.9"), "vec.vh differs at line 1"),
+    ] {
+        refused(at, &["manifest.json: field bench.vec.vh", line], |p| with_hash(p, at, value));
+    }
+    refused(
+        "replay.v",
+        &["manifest.json: field bench.replay.v", "replay.v differs at line 5"],
+        |p| {
+            p.edit("replay.v", |bytes| {
+                let text = String::from_utf8(bytes.clone()).expect("text");
+                *bytes = text.replacen("vec.vh", "cev.vh", 1).into_bytes();
+            });
+            let content = fs::read(p.pack.join("replay.v")).expect("the bench");
+            let hash = blake3::hash(&content).to_hex().to_string();
+            with_hash(p, "/bench/1/blake3", json!(hash));
+        },
+    );
+    refused(
+        "fewer files",
+        &["field bench: vec.vh, replay.v, expected vec.vh, replay.v, sam"],
+        |p| {
+            let manifest = fs::read_to_string(p.pack.join("manifest.json")).expect("the manifest");
+            let manifest: Value = serde_json::from_str(&manifest).expect("JSON");
+            with_hash(p, "/bench", json!(&manifest["bench"].as_array().expect("files")[..2]));
+        },
+    );
+}
+
+#[test]
+fn a_static_input_has_no_more_than_its_bits() {
+    let folder = folder();
+    write(&cases::random(Target::Display, &Config::DEFAULT, 1, 20), folder.path());
+    let path = folder.path().join("display/manifest.json");
+    let mut manifest: Manifest =
+        serde_json::from_slice(&fs::read(&path).expect("the manifest")).expect("JSON");
+    manifest.statics[0].value = 1 << 20;
+    fs::write(&path, serde_json::to_string(&manifest).expect("JSON")).expect("written");
+    let error = pack::check(folder.path()).expect_err("too wide").to_string();
+    assert!(error.contains("field statics.width: 1048576, expected 12 bits at most"), "{error}");
 }
 
 #[test]

@@ -80,6 +80,6 @@ impl fmt::Display for Quality {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Quality { pixels, colours, ids, gaps, .. } = self;
         let ratio = self.ratio();
-        write!(f, "{ratio}, {colours} of {pixels} colours, {ids} ids differ, {gaps} gaps")
+        write!(f, "{ratio}, differences: {colours} of {pixels} colours, {ids} ids; gaps: {gaps}")
     }
 }

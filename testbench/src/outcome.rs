@@ -160,6 +160,28 @@ pub struct Difference {
     pub actual: u64,
 }
 
+impl Difference {
+    /// The fields in which two rows differ.
+    pub(crate) fn all(fields: &[Field], expected: &[u64], actual: &[u64]) -> Vec<Difference> {
+        let values = expected.iter().zip(actual);
+        fields
+            .iter()
+            .zip(values)
+            .filter(|(_, (expected, actual))| expected != actual)
+            .map(|(field, (&expected, &actual))| Difference {
+                field: field.clone(),
+                expected,
+                actual,
+            })
+            .collect()
+    }
+
+    /// All of them in a line.
+    pub(crate) fn list(differences: &[Difference]) -> String {
+        differences.iter().map(Difference::to_string).collect::<Vec<_>>().join("; ")
+    }
+}
+
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Difference { field, expected, actual } = self;
@@ -203,10 +225,7 @@ impl fmt::Display for Mismatch {
             Fault::Flag => write!(f, "flag at the end, cycle {cycle}: ")?,
             Fault::Stopped(why) => write!(f, "the model stopped, cycle {cycle}: {why}")?,
         }
-        for (number, difference) in self.differences.iter().enumerate() {
-            write!(f, "{}{difference}", if number > 0 { "; " } else { "" })?;
-        }
-        Ok(())
+        write!(f, "{}", Difference::list(&self.differences))
     }
 }
 

@@ -64,7 +64,7 @@ impl Tool {
             .map(|folder| folder.join(self.program))
             .find(|program| program.is_file())
             .ok_or(ToolError::Missing(self))?;
-        let text = first_line(&program, self.version_arguments, path);
+        let text = first_line(&program, self.version_arguments, path).ok();
         let version = text.as_deref().and_then(Version::parse);
         match (self.oldest, version) {
             (Some(oldest), Some(found)) if found < oldest => {
@@ -156,7 +156,7 @@ pub enum ToolError {
     Missing(&'static Tool),
     /// It is older than the oldest version that works.
     #[error(
-        "{} {} ({}) is too old, {} needs {} or newer; install it with: {}",
+        "{} {} ({}) is too old, {} needs {} or newer; install it with: {} (an older one may stand first in PATH)",
         .tool.program, .tool.spell(*.found), .program.display(), .tool.purpose,
         .tool.spell(.tool.oldest.unwrap_or(*.found)), .tool.install_command()
     )]
@@ -179,14 +179,49 @@ pub enum ToolError {
         /// Where it was found.
         program: PathBuf,
     },
+    /// It says its version, but not what else it is asked.
+    #[error(
+        "{} {call}: {why}; install it again with: {}", .program.display(), .tool.install_command()
+    )]
+    Call {
+        /// The tool.
+        tool: &'static Tool,
+        /// Where it was found.
+        program: PathBuf,
+        /// What it was asked.
+        call: String,
+        /// What came of it.
+        why: String,
+    },
 }
 
-/// First non-empty line that a program prints on its standard output, or else on standard error.
-fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Option<String> {
-    let output = Command::new(program).args(arguments).env("PATH", path).output().ok()?;
-    [output.stdout, output.stderr].iter().find_map(|text| {
+/// First non-empty line that a program prints on its standard output, or else on standard error; or
+/// why there is none.
+fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Result<String, String> {
+    let output = Command::new(program).args(arguments).env("PATH", path).output();
+    let output = output.map_err(|error| error.to_string())?;
+    let line = [output.stdout, output.stderr].iter().find_map(|text| {
         let text = String::from_utf8_lossy(text);
         text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
+    });
+    line.ok_or_else(|| format!("it printed nothing ({})", output.status))
+}
+
+/// Verilator's folder with the C++ headers and sources that every model uses.
+fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
+    let call = ["--getenv", "VERILATOR_ROOT"];
+    let root = first_line(&verilator.program, &call, path).and_then(|root| {
+        let include = Path::new(&root).join("include");
+        let is_there = include.join("verilated.cpp").is_file();
+        is_there
+            .then_some(include)
+            .ok_or(format!("it printed “{root}”, where no include/verilated.cpp is"))
+    });
+    root.map_err(|why| ToolError::Call {
+        tool: &VERILATOR,
+        program: verilator.program.clone(),
+        call: call.join(" "),
+        why,
     })
 }
 
@@ -217,14 +252,8 @@ impl Toolchain {
     pub fn find_in(path: &OsStr) -> Result<Toolchain, ToolError> {
         let verilator = VERILATOR.find_in(path)?;
         let gxx = GXX.find_in(path)?;
-        let root = first_line(&verilator.program, &["--getenv", "VERILATOR_ROOT"], path);
-        let include = root.map(|root| Path::new(&root).join("include"));
-        match include.filter(|folder| folder.join("verilated.cpp").is_file()) {
-            Some(include) => Ok(Toolchain { verilator, gxx, include, path: path.to_owned() }),
-            None => {
-                Err(ToolError::Unusable { tool: &VERILATOR, program: verilator.program.clone() })
-            }
-        }
+        let include = include(&verilator, path)?;
+        Ok(Toolchain { verilator, gxx, include, path: path.to_owned() })
     }
 
     /// A command that sees the same programs as this tool chain.
@@ -280,6 +309,9 @@ impl Doctor {
             .into_iter()
             .map(|tool| Examined { tool, result: tool.find_in(path) })
             .collect();
+        if let Ok(Err(error)) = rows[0].result.as_ref().map(|found| include(found, path)) {
+            rows[0].result = Err(error);
+        }
         let zlib = match &rows[1].result {
             Ok(gxx) => zlib_header(gxx, path),
             Err(_) => Err(ToolError::Missing(&ZLIB)),
@@ -308,7 +340,9 @@ impl fmt::Display for Doctor {
                 Ok(Found { program, .. }) => program.display().to_string(),
                 Err(ToolError::Missing(_)) => "missing".to_owned(),
                 Err(ToolError::TooOld { found, .. }) => format!("{}: too old", tool.spell(*found)),
-                Err(ToolError::Unusable { .. }) => "does not run".to_owned(),
+                Err(ToolError::Unusable { .. } | ToolError::Call { .. }) => {
+                    "does not run".to_owned()
+                }
             };
             let install = if result.is_ok() { String::new() } else { tool.install_command() };
             let purpose = if tool.optional { "optional: " } else { "" };
@@ -344,22 +378,51 @@ mod tests {
         assert!(!Doctor::examine_in(OsStr::new("")).is_ready());
     }
 
+    /// What is said of a Verilator that is a shell script.
+    fn refused(script: &str) -> (ToolError, String) {
+        // A script cannot be run while a process just begun has it open for writing.
+        static ONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
+        let _one = ONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let folder = tempfile::tempdir().unwrap();
+        let program = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, format!("#!/bin/sh\n{text}\n")).unwrap();
+            let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+            std::fs::set_permissions(&path, mode).unwrap();
+        };
+        program("verilator", script);
+        program("g++", "echo 12.2.0");
+        let error = Toolchain::find_in(folder.path().as_os_str()).unwrap_err();
+        let doctor = Doctor::examine_in(folder.path().as_os_str());
+        assert_eq!(doctor.rows[0].result.as_ref().unwrap_err(), &error, "the doctor sees it too");
+        let text = error.to_string();
+        assert!(text.contains(folder.path().join("verilator").to_str().unwrap()), "{text}");
+        assert!(text.contains("apt-get install verilator"), "{text}");
+        (error, text)
+    }
+
     #[test]
     fn an_old_verilator_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let program = folder.path().join("verilator");
-        std::fs::write(&program, "#!/bin/sh\necho 'Verilator 4.038 2020-07-11 rev v4.036'\n")
-            .unwrap();
-        let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
-        std::fs::set_permissions(&program, mode).unwrap();
-        let error = Toolchain::find_in(folder.path().as_os_str()).unwrap_err();
+        let (error, text) = refused("echo 'Verilator 4.038 2020-07-11 rev v4.036'");
         assert!(matches!(error, ToolError::TooOld { found: Version { major: 4, minor: 38 }, .. }));
-        let text = error.to_string();
-        assert!(
-            text.contains("apt-get install verilator")
-                && text.contains("5.006")
-                && text.contains("4.038"),
-            "{text}"
-        );
+        for part in ["5.006", "4.038", "an older one may stand first in PATH"] {
+            assert!(text.contains(part), "no “{part}” in: {text}");
+        }
+    }
+
+    #[test]
+    fn what_a_verilator_does_not_answer_is_told() {
+        let (error, text) = refused("echo nonsense");
+        assert!(matches!(error, ToolError::Unusable { .. }), "{text}");
+        assert!(text.contains("did not print its version"), "{text}");
+        let version = "[ $1 = --version ] && echo 'Verilator 5.006 2023-01-22' && exit";
+        for (answer, why) in [
+            ("exit 3", "--getenv VERILATOR_ROOT: it printed nothing (exit status: 3)"),
+            ("echo /nowhere", "--getenv VERILATOR_ROOT: it printed “/nowhere”"),
+        ] {
+            let (error, text) = refused(&format!("{version}\n{answer}"));
+            assert!(matches!(error, ToolError::Call { .. }), "{text}");
+            assert!(text.contains(why) && !text.contains("version"), "no “{why}” in: {text}");
+        }
     }
 }

@@ -3,12 +3,13 @@
 //! A model's folder in the cache is named after a hash of everything that goes into it: the
 //! versions of both tools, all flags, every Verilog file that the module can use, and the
 //! generated C++. The files are read once; what was hashed is what is compiled. A model is built in a
-//! temporary folder under a file lock and then renamed, so that neither a second process nor a
-//! killed one leaves half a model.
+//! temporary folder of the process and then renamed, under a file lock: neither a second process nor
+//! a killed one leaves half a model, nor do the compilers that outlive a killed one.
 
 use crate::layout::{Layout, Probe};
 use crate::model::{Library, LoadError};
 use crate::ports::{self, PortError};
+use crate::scratch::Scratch;
 use crate::shim::{self, PREFIX};
 use crate::sources::{self, Sources};
 use crate::tools::{ToolError, Toolchain};
@@ -196,13 +197,9 @@ impl Builder {
             if !object.is_file() {
                 (self.progress)(Progress::Building(module));
                 let start = Instant::now();
-                let temporary = self.cache.join(format!("{module}-{key}.building"));
-                let result = job.build(&key, &temporary);
-                if result.is_err() {
-                    let _ = fs::remove_dir_all(&temporary);
-                }
-                result?;
-                rename(&temporary, &folder)?;
+                let temporary = self.scratch()?;
+                job.build(&key, temporary.path())?;
+                persist(temporary, &folder)?;
                 (self.progress)(Progress::Built(module, start.elapsed()));
             }
         }
@@ -228,18 +225,23 @@ impl Builder {
         }
         self.tools.check_zlib()?;
         (self.progress)(Progress::Runtime);
-        let temporary = self.cache.join(format!("runtime-{key}.building"));
-        fresh_folder(&temporary)?;
-        write(&temporary.join("print.h"), shim::PRINT_HEADER.as_bytes())?;
+        let temporary = self.scratch()?;
+        write(&temporary.path().join("print.h"), shim::PRINT_HEADER.as_bytes())?;
         for name in RUNTIME {
-            let mut command = self.compiler(&temporary);
+            let mut command = self.compiler(temporary.path());
             command.arg("-c").arg(self.tools.include.join(format!("{name}.cpp")));
             command.arg("-o").arg(format!("{name}.o"));
             let log = self.cache.join(format!("runtime-{key}.log"));
             run(command, "g++", "verilator's runtime", &log)?;
         }
-        rename(&temporary, &folder)?;
+        persist(temporary, &folder)?;
         Ok(objects)
+    }
+
+    /// A temporary folder in the cache.
+    fn scratch(&self) -> Result<Scratch, BuildError> {
+        let at = |source| BuildError::Cache { path: self.cache.clone(), source };
+        Scratch::new(&self.cache).map_err(at)
     }
 
     /// g++ with the flags of every compilation, working in `folder`, where `print.h` is.
@@ -295,7 +297,7 @@ impl Job<'_> {
         let runtime = self.builder.runtime()?;
         let module = self.spec.interface.module;
         let log = self.builder.cache.join(format!("{module}-{key}.log"));
-        fresh_folder(&temporary.join("rtl"))?;
+        create_folder(&temporary.join("rtl"))?;
         for (name, content) in self.sources {
             write(&temporary.join("rtl").join(name), content)?;
         }
@@ -386,13 +388,8 @@ fn run(
     Err(BuildError::Failed { tool, module: module.to_owned(), lines, log: log.to_owned() })
 }
 
-fn fresh_folder(path: &Path) -> Result<(), BuildError> {
-    let at = |source| BuildError::Cache { path: path.to_owned(), source };
-    match fs::remove_dir_all(path) {
-        Err(source) if source.kind() != io::ErrorKind::NotFound => return Err(at(source)),
-        _ => (),
-    }
-    fs::create_dir_all(path).map_err(at)
+fn create_folder(path: &Path) -> Result<(), BuildError> {
+    fs::create_dir_all(path).map_err(|source| BuildError::Cache { path: path.to_owned(), source })
 }
 
 fn write(path: &Path, content: &[u8]) -> Result<(), BuildError> {
@@ -401,8 +398,8 @@ fn write(path: &Path, content: &[u8]) -> Result<(), BuildError> {
         .map_err(|source| BuildError::Cache { path: path.to_owned(), source })
 }
 
-fn rename(from: &Path, to: &Path) -> Result<(), BuildError> {
-    fs::rename(from, to).map_err(|source| BuildError::Cache { path: to.to_owned(), source })
+fn persist(temporary: Scratch, to: &Path) -> Result<(), BuildError> {
+    temporary.persist(to).map_err(|source| BuildError::Cache { path: to.to_owned(), source })
 }
 
 /// A lock between threads and processes, given back when dropped.
@@ -414,7 +411,7 @@ impl Lock {
     fn take(folder: &Path, name: &str) -> Result<Lock, BuildError> {
         let path = folder.join(name);
         let at = |source| BuildError::Cache { path: path.clone(), source };
-        fs::create_dir_all(folder).map_err(at)?;
+        create_folder(folder)?;
         let file = File::create(&path).map_err(at)?;
         file.lock().map_err(at)?;
         Ok(Lock { _file: file })

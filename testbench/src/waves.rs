@@ -1,18 +1,27 @@
-//! Views of waveforms: for every dump a save file of GTKWave and a command file of Surfer, with
+//! Waveforms and their views: for every dump a save file of GTKWave and a command file of Surfer, with
 //! the signals grouped by stream and shown as what they are.
 //!
 //! Verilog has no fractions and no names for codes; a viewer shows them only if told for each
 //! signal. The tables of the interface know them.
+//!
+//! A dump is written in a temporary folder and put in its place with its views when it is complete.
 
 use crate::job::TraceWindow;
 use crate::layout::Probe;
-use std::collections::BTreeMap;
+use crate::scratch::Scratch;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
-use std::io::{self, Read as _};
+use std::io::{self, Read as _, Write as _};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use wheatstone_golden::interface::{Direction, Field, Interface, Kind, Stream};
+
+/// Room that a dump must have while it is written; the largest take a hundredth of it.
+const ROOM: usize = 32 << 20;
+/// Where the C library makes unnamed temporary files, whatever the environment says.
+const UNNAMED: &str = "/tmp";
 
 /// What a view shows.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +61,14 @@ pub enum WaveError {
     /// The dump has no values: it was never completed, or its window was never reached.
     #[error("the waveform {} is empty", .0.display())]
     Empty(PathBuf),
+    /// There is no room to write a dump.
+    #[error("no room for waveforms in {} ({} MiB are wanted): {source}", .folder.display(), ROOM >> 20)]
+    Room {
+        /// The temporary folder.
+        folder: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
     /// A file could not be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write {
@@ -70,28 +87,106 @@ struct Line {
     bits: u32,
 }
 
+/// Paths of files, and what is to be in them.
+type Files = Vec<(PathBuf, Vec<u8>)>;
+
 /// Signals under a title.
 struct Group {
     title: String,
     lines: Vec<Line>,
 }
 
+/// A dump under way.
+///
+/// Verilator's writer maps its files into memory, where a full disk is a deadly signal and no error:
+/// there must be room before it begins.
+pub(crate) struct Dump {
+    folder: Scratch,
+    cycles: RangeInclusive<u64>,
+}
+
+impl Dump {
+    /// A dump of some cycles, in a temporary folder that has room for it.
+    pub fn new(cycles: RangeInclusive<u64>) -> Result<Dump, WaveError> {
+        let folder = std::env::temp_dir();
+        let at = |folder: &Path| {
+            let folder = folder.to_owned();
+            |source| WaveError::Room { folder, source }
+        };
+        for folder in BTreeSet::from([&folder, Path::new(UNNAMED)]) {
+            probe(folder).map_err(at(folder))?;
+        }
+        Ok(Dump { folder: Scratch::new(&folder).map_err(at(&folder))?, cycles })
+    }
+
+    /// What the simulation is to write.
+    pub fn window(&self) -> TraceWindow {
+        let path = self.folder.path().join("dump.fst");
+        TraceWindow { path, from_cycle: *self.cycles.start(), to_cycle: *self.cycles.end() }
+    }
+
+    /// Puts the dump, now complete, and its views in their place: all of them, or none.
+    pub fn deliver(self, place: &Path, view: &View<'_>) -> Result<(), WaveError> {
+        let dump = self.window().path;
+        let mut content = files(&dump, place, view)?.1;
+        let unread = |source| WaveError::Write { path: place.to_owned(), source };
+        content.push((place.to_owned(), fs::read(&dump).map_err(unread)?));
+        put(&content)
+    }
+}
+
+/// Writes as much as a dump could need into a folder; real bytes, as a file with a hole takes no room.
+fn probe(folder: &Path) -> io::Result<()> {
+    let mut file = tempfile::tempfile_in(folder)?;
+    let block = [0x5a; 1 << 16];
+    (0..ROOM / block.len()).try_for_each(|_| file.write_all(&block))
+}
+
+/// Writes files of a folder under other names first, so that all appear or none.
+fn put(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WaveError> {
+    let Some(folder) = files.first().and_then(|(path, _)| path.parent()) else { return Ok(()) };
+    let at = |path: &Path| {
+        let path = path.to_owned();
+        |source| WaveError::Write { path, source }
+    };
+    let scratch = Scratch::new(folder).map_err(at(folder))?;
+    let name = |path: &Path| scratch.path().join(path.file_name().unwrap_or_default());
+    for (path, content) in files {
+        fs::write(name(path), content).map_err(at(path))?;
+    }
+    for (done, (path, _)) in files.iter().enumerate() {
+        if let Err(error) = fs::rename(name(path), path) {
+            files[..done].iter().for_each(|(path, _)| drop(fs::remove_file(path)));
+            return Err(at(path)(error));
+        }
+    }
+    Ok(())
+}
+
 /// Writes the views `<dump>.gtkw` and `<dump>.sucl` beside a dump.
 pub fn write_views(dump: &Path, view: &View<'_>) -> Result<ViewFiles, WaveError> {
+    let (views, content) = files(dump, dump, view)?;
+    put(&content)?;
+    Ok(views)
+}
+
+/// The views of a dump that is going to be in a place, and all files that belong to them.
+fn files(dump: &Path, place: &Path, view: &View<'_>) -> Result<(ViewFiles, Files), WaveError> {
     let names = names(dump)?;
     let mut missing = Vec::new();
     let groups = groups(view, &names, &mut missing);
-    let dump = std::path::absolute(dump).unwrap_or_else(|_| dump.to_owned());
-    let files = ViewFiles {
-        gtkwave: dump.with_extension("gtkw"),
-        surfer: dump.with_extension("sucl"),
+    let place = std::path::absolute(place).unwrap_or_else(|_| place.to_owned());
+    let views = ViewFiles {
+        gtkwave: place.with_extension("gtkw"),
+        surfer: place.with_extension("sucl"),
         signals: groups.iter().map(|group| group.lines.len()).sum(),
         missing,
     };
-    let filters = write_filters(&dump, &groups)?;
-    write(&files.gtkwave, &gtkwave(&dump, &files.gtkwave, view, &groups, &filters))?;
-    write(&files.surfer, &surfer(&dump, view, &groups))?;
-    Ok(files)
+    let (filters, mut files) = filters(&place, &groups);
+    let save = gtkwave(&place, &views.gtkwave, view, &groups, &filters);
+    files.push((views.gtkwave.clone(), save.into_bytes()));
+    files.push((views.surfer.clone(), surfer(&place, view, &groups).into_bytes()));
+    Ok((views, files))
 }
 
 /// The signals of a dump: path to path with range.
@@ -174,23 +269,23 @@ fn signals(stream: &Stream) -> Vec<(String, Kind, u32)> {
 }
 
 /// One file for each set of names: a line a code, in binary.
-fn write_filters(dump: &Path, groups: &[Group]) -> Result<BTreeMap<Codes, PathBuf>, WaveError> {
-    let mut filters = BTreeMap::new();
+fn filters(place: &Path, groups: &[Group]) -> (BTreeMap<Codes, PathBuf>, Files) {
+    let (mut filters, mut files) = (BTreeMap::new(), Files::new());
     for line in groups.iter().flat_map(|group| &group.lines) {
         let Kind::Code(names) = line.kind else { continue };
         let codes = (names, line.bits);
         if filters.contains_key(&codes) {
             continue;
         }
-        let path = dump.with_extension(format!("codes{}.txt", filters.len()));
+        let path = place.with_extension(format!("codes{}.txt", filters.len()));
         let mut text = String::new();
         for (code, name) in names.iter().enumerate() {
             let _ = writeln!(text, "{code:0width$b} {name}", width = line.bits as usize);
         }
-        write(&path, &text)?;
+        files.push((path.clone(), text.into_bytes()));
         filters.insert(codes, path);
     }
-    Ok(filters)
+    (filters, files)
 }
 
 /// Names of codes, and their width.
@@ -282,13 +377,23 @@ fn letters(mut number: usize) -> String {
     }
 }
 
-fn write(path: &Path, text: &str) -> Result<(), WaveError> {
-    fs::write(path, text).map_err(|source| WaveError::Write { path: path.to_owned(), source })
-}
-
 #[cfg(test)]
 mod tests {
-    use super::letters;
+    use super::*;
+
+    #[test]
+    fn files_appear_all_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let content = |name: &str| (folder.path().join(name), name.as_bytes().to_vec());
+        let files = ["a", "b", "c"].map(content);
+        put(&files).unwrap();
+        assert!(files.iter().all(|(path, content)| fs::read(path).unwrap() == *content));
+        let files = ["x", "y", "z"].map(content);
+        fs::create_dir(&files[1].0).unwrap();
+        let error = put(&files).unwrap_err().to_string();
+        assert!(error.starts_with(&format!("cannot write {}", files[1].0.display())), "{error}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4, "a, b, c and the folder y");
+    }
 
     #[test]
     fn surfer_counts_with_letters() {

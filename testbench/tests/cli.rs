@@ -1,8 +1,10 @@
 //! The program as a user meets it: exit statuses, messages, and what a run leaves behind.
 
+mod common;
+
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
 /// The program, in a folder.
@@ -44,6 +46,81 @@ fn files(folder: &Path) -> Vec<String> {
     found
 }
 
+/// A workspace of its own: a copy of the Verilog, and a cache without models.
+struct Workspace {
+    folder: tempfile::TempDir,
+    _cache: tempfile::TempDir,
+}
+
+impl Workspace {
+    fn new() -> Workspace {
+        let (folder, cache) = (folder(&[]), common::fresh_cache());
+        let rtl = Path::new(env!("CARGO_MANIFEST_DIR")).join("../rtl");
+        fs::create_dir(folder.path().join("rtl")).expect("a folder");
+        for entry in fs::read_dir(rtl).expect("the Verilog") {
+            let entry = entry.expect("an entry");
+            fs::copy(entry.path(), folder.path().join("rtl").join(entry.file_name()))
+                .expect("copied");
+        }
+        fs::create_dir_all(folder.path().join("target/wheatstone")).expect("a folder");
+        let models = folder.path().join("target/wheatstone/models");
+        std::os::unix::fs::symlink(cache.path(), models).expect("a link");
+        Workspace { folder, _cache: cache }
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Copies the Verilog into another folder, with one text in it replaced.
+    fn plant(&self, copy: &str, file: &str, find: &str, replace: &str) {
+        let copy = self.path().join(copy);
+        fs::create_dir(&copy).expect("a folder");
+        for entry in fs::read_dir(self.path().join("rtl")).expect("the Verilog") {
+            let entry = entry.expect("an entry");
+            fs::copy(entry.path(), copy.join(entry.file_name())).expect("copied");
+        }
+        let text = fs::read_to_string(copy.join(file)).expect("a module");
+        assert_eq!(text.matches(find).count(), 1, "{file}: {find}");
+        fs::write(copy.join(file), text.replace(find, replace)).expect("written");
+    }
+
+    /// Runs a shell's command.
+    fn shell(&self, command: &str) -> Output {
+        let mut shell = Command::new("sh");
+        shell.current_dir(self.path()).args(["-c", command]).output().expect("sh")
+    }
+}
+
+/// What reports of mismatches say in the lines of that name.
+fn told(output: &Output, name: &str) -> Vec<String> {
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let (_, reports) = text.split_once("MISMATCH\n").expect("a report");
+    let lines = reports.lines().filter_map(|line| line.trim_start().strip_prefix(name));
+    lines.map(|line| line.trim().to_owned()).collect()
+}
+
+/// Names of the entries of a folder that begin with a point.
+fn hidden(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let is_hidden =
+        |path: &PathBuf| path.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.'));
+    entries.filter(is_hidden).collect()
+}
+
+/// Starts the program and kills it as soon as `ready`.
+fn kill_when(folder: &Path, line: &str, ready: impl Fn() -> bool) {
+    let mut command = program(folder);
+    command.args(line.split_whitespace()).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().expect("started");
+    while !ready() {
+        assert!(child.try_wait().expect("a child").is_none(), "{line} ended too soon");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("killed");
+    child.wait().expect("ended");
+}
+
 /// A triangle in the scene format, with one text in it replaced.
 fn scene(find: &str, replace: &str) -> String {
     let text = r#"{"format": "stereo-scene/1", "width": 64, "height": 48,
@@ -58,13 +135,14 @@ fn scene(find: &str, replace: &str) -> String {
 
 const OBJ: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
 
-/// Arguments, the files that are there (name, content), and what the message must say.
-type BadInput<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a [&'a str]);
+/// Options, files given, and words of the message.
+type Refused<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a [&'a str]);
 
+/// Bad input, and what the message must say of it.
 #[test]
 fn bad_input_is_told_by_file_place_and_expectation() {
     let empty = folder(&[]);
-    let table: &[BadInput] = &[
+    let table: &[Refused] = &[
         ("--scene a.obj", &[("a.obj", "v 0 0 0\nv 1 0\nf 1 1 1\n")], &["a.obj:2", "expected"]),
         ("--scene a.obj", &[("a.obj", "v 0 0 0\nv 1 0 x\n")], &["a.obj:2", "number", "found x"]),
         ("--scene a.obj", &[("a.obj", "v 0 0 nan\nf 1 1 1\n")], &["a.obj:1", "expected"]),
@@ -151,6 +229,7 @@ fn pictures_have_ids_of_the_triangles() {
     let output =
         run(folder.path(), "render --scene s.json --method direct --out p --stereo anaglyph");
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert!(said(&output).contains("1 polygon, both views directly"), "{}", said(&output));
     for eye in ["left", "right"] {
         let ids =
             image::open(folder.path().join(format!("p/{eye}_ids.png"))).expect("ids").to_rgb8();
@@ -203,8 +282,8 @@ fn a_killed_run_leaves_no_half_written_file() {
         let line = "render --scene room --method hybrid --out p --stereo anaglyph,wiggle";
         let mut child = program(folder.path())
             .args(line.split_whitespace())
-            .stdout(std::process::Stdio::null())
-            .stderr(std::process::Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
             .spawn()
             .expect("started");
         std::thread::sleep(Duration::from_millis(wait));
@@ -217,8 +296,167 @@ fn a_killed_run_leaves_no_half_written_file() {
 }
 
 #[test]
+fn a_killed_build_does_not_disturb_the_next() {
+    let workspace = Workspace::new();
+    let models = workspace.path().join("target/wheatstone/models");
+    let line = "cosim display --beats 100";
+    // The compiler is at work, and goes on when nobody waits for it any more.
+    kill_when(workspace.path(), line, || {
+        hidden(&models).iter().any(|folder| folder.join("cpp/model.cpp").exists())
+    });
+    assert_eq!(hidden(&models).len(), 1);
+    let output = run(workspace.path(), line);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert_eq!(hidden(&models), Vec::<PathBuf>::new());
+}
+
+#[test]
+fn a_killed_writer_of_packs_leaves_nothing_for_good() {
+    let folder = folder(&[]);
+    let packs = folder.path().join("p");
+    kill_when(folder.path(), "vectors sampler --beats 300000 --out p", || {
+        !hidden(&packs).is_empty()
+    });
+    assert_eq!(hidden(&packs).len(), 1);
+    let output = run(folder.path(), "vectors display --beats 10 --out p");
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert_eq!(fs::read_dir(&packs).expect("packs").count(), 1, "{:?}", hidden(&packs));
+}
+
+/// Three cases fail side by side; their folders' names need quoting.
+#[test]
+fn every_failing_case_has_waves_of_its_own_and_a_command_that_repeats_it() {
+    let workspace = Workspace::new();
+    let program = env!("CARGO_BIN_EXE_wheatstone");
+    workspace.plant("it's $RTL", "sam_display.v", "width_i + ~point_x_i", "width_i - ~point_x_i");
+    let options =
+        r#"display --rtl "it's \$RTL" --out "o u t" --config paper --beats 40000 --jobs 3"#;
+    let output = workspace.shell(&format!("{program} cosim {options} --json 'a report'"));
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    let (what, waves) = (told(&output, "what"), told(&output, "waveforms"));
+    let repeat = told(&output, "repeat with");
+    assert_eq!([what.len(), waves.len(), repeat.len()], [3; 3], "{}", said(&output));
+    assert!(waves.iter().any(|file| *file == "o u t/display-random-seed1-run1.fst"), "{waves:?}");
+    for (n, file) in waves.iter().enumerate() {
+        assert!(!waves[..n].contains(file), "{waves:?}");
+        for end in ["fst", "gtkw", "sucl"] {
+            let file = workspace.path().join(file).with_extension(end);
+            assert!(fs::metadata(&file).is_ok_and(|f| f.len() > 100), "{}", file.display());
+        }
+    }
+    assert_eq!(hidden(&workspace.path().join("o u t")), Vec::<PathBuf>::new());
+
+    let report = fs::read_to_string(workspace.path().join("a report")).expect("the report");
+    for (command, what) in repeat.iter().zip(&what) {
+        let again = workspace.shell(command);
+        assert_eq!(again.status.code(), Some(1), "{command}: {}", said(&again));
+        assert_eq!(told(&again, "what"), [what.as_str()], "{command}");
+        assert_eq!(told(&again, "repeat with"), [command.as_str()]);
+    }
+    let same = fs::read_to_string(workspace.path().join("a report")).expect("the report");
+    assert!(report == same, "a repetition leaves the report alone");
+
+    let output = workspace.shell(&format!("{program} cosim display --case rndom"));
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(
+        text.contains("there are: “every mode, width 1”") && text.contains("“random”"),
+        "{text}"
+    );
+}
+
+/// A mismatch is told whatever becomes of the waveforms; without one it is an error.
+#[test]
+fn waves_without_room_are_told_and_leave_nothing() {
+    let workspace = Workspace::new();
+    workspace.plant("bug", "sam_display.v", "width_i + ~point_x_i", "width_i - ~point_x_i");
+    let cosim = "cosim display --beats 1000 --out o";
+    let run = |limit: &str, line: &str| {
+        let program = env!("CARGO_BIN_EXE_wheatstone");
+        workspace.shell(&format!("{limit} exec {program} {line}"))
+    };
+    let limit = "trap '' XFSZ; ulimit -f 16;";
+    let bug = format!("{cosim} --rtl bug --case random");
+    let (free, full) = (run("", &format!("{bug} --waves never")), run(limit, &bug));
+    assert_eq!([free.status.code(), full.status.code()], [Some(1); 2], "{}", said(&full));
+    assert_eq!(told(&free, "what"), told(&full, "what"));
+    let [line] = told(&full, "waveforms").try_into().expect("a line about the waveforms");
+    assert!(line.starts_with("failed because no room for waveforms in /"), "{line}");
+
+    let unwritten = run("", &format!("{bug} --waves never --json no/report --junit r"));
+    assert_eq!(unwritten.status.code(), Some(1), "{}", said(&unwritten));
+    assert_eq!(told(&free, "what"), told(&unwritten, "what"));
+    assert!(said(&unwritten).contains("no/report"), "{}", said(&unwritten));
+
+    let always = format!("{cosim} --waves always");
+    let output = run("", &always);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let made = files(&workspace.path().join("o"));
+    assert_eq!(made.iter().filter(|file| file.ends_with(".fst")).count(), 3, "{made:?}");
+    fs::remove_dir_all(workspace.path().join("o")).expect("removed");
+
+    for line in [always.as_str(), "waves display --out o/p"] {
+        let output = run(limit, line);
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+        assert!(text.contains("no room for waveforms in /"), "{line}: {text}");
+        assert!(!workspace.path().join("o").exists(), "{line} left a folder");
+    }
+}
+
+#[test]
+fn a_viewer_that_does_not_open_is_an_error_of_one_line() {
+    let refuses = "echo 'Could not initialize GTK!' >&2; echo 'Usage: gtkwave' >&2; exit 0";
+    for (script, status) in [(refuses, 2), ("exit 7", 2), ("exec sleep 3", 0)] {
+        // Written by a process that ends before it is run: one that is open cannot be run.
+        let (folder, write) =
+            (folder(&[]), r##"printf '#!/bin/sh\n%s\n' "$1" >gtkwave; chmod +x gtkwave"##);
+        let mut shell = Command::new("sh");
+        shell.current_dir(folder.path()).args(["-c", write, "sh", script]);
+        assert!(shell.status().expect("sh").success());
+        let path = std::env::var("PATH").expect("a path");
+        let output = program(folder.path())
+            .args(["waves", "display", "--open", "--out", "."])
+            .env("PATH", format!("{}:{path}", folder.path().display()))
+            .output()
+            .expect("the program runs");
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(status), "{script}: {text}");
+        let errors = text.lines().filter(|line| line.starts_with("error: ")).count();
+        assert_eq!(errors, usize::from(status == 2), "{text}");
+        assert_eq!(text.contains("Could not initialize GTK!"), script == refuses, "{text}");
+        assert!(!text.contains("Usage"), "{text}");
+    }
+}
+
+/// From wherever the program is called, its models are where the workspace has them.
+#[test]
+fn no_models_are_left_where_the_program_is_called() {
+    let folder = folder(&[]);
+    let output = run(folder.path(), "cosim display --beats 100");
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let output = run(folder.path(), "waves display --scene ramp --pixel left,0,0");
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+}
+
+#[test]
+fn a_unit_takes_no_scene() {
+    let folder = folder(&[]);
+    for (line, unit) in [
+        ("cosim hybrid filter --scene ties", "filter"),
+        ("cosim filter --scene teapot", "filter"),
+        ("cosim hybrid display --scene ties", "display"),
+    ] {
+        let output = run(folder.path(), line);
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+        assert!(text.contains(&format!("--scene: {unit} draws no scenes")), "{line}: {text}");
+    }
+}
+
+#[test]
 fn a_closed_pipe_is_no_panic() {
-    use std::process::Stdio;
     let folder = folder(&[]);
     let mut child = program(folder.path())
         .args(["cosim", "display", "--beats", "1000", "--jobs", "1"])

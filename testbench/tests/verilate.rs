@@ -99,15 +99,15 @@ fn a_model_is_built_once_and_again_when_its_source_changed() {
 fn many_askers_get_one_build() {
     let (cache, rtl) = (fresh_cache(), copied());
     let counting: Vec<Counting> = (0..4).map(|_| Counting::new(cache.path())).collect();
-    // What a killed build leaves behind does not disturb.
+    // What a killed build leaves behind does not disturb, and goes.
     let interface = adder(0);
     let library = counting[0].build(&interface, rtl.path()).unwrap();
     drop(library);
     let folders = fs::read_dir(cache.path()).unwrap().map(|e| e.unwrap().path());
     let is_model = |p: &std::path::PathBuf| p.join("model.so").is_file();
     let folder = folders.into_iter().find(is_model).unwrap();
-    let name = folder.file_name().unwrap().to_string_lossy().into_owned();
-    fs::rename(&folder, cache.path().join(format!("{name}.building"))).unwrap();
+    let left = cache.path().join(".wheatstone-left.part");
+    fs::rename(&folder, &left).unwrap();
     std::thread::scope(|scope| {
         for counting in &counting {
             scope.spawn(|| assert!(passes(&counting.build(&interface, rtl.path()).unwrap())));
@@ -115,6 +115,7 @@ fn many_askers_get_one_build() {
     });
     let built: usize = counting.iter().map(Counting::built).sum();
     assert_eq!(built, 2, "the first and one of the four");
+    assert!(!left.exists());
 }
 
 #[test]

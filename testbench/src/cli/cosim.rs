@@ -1,7 +1,8 @@
 //! `wheatstone cosim`.
 
 use super::*;
-use crate::regression::{self, Entry, Event, NamedScene, Plan, Waves};
+use crate::regression::{self, command_line, counted, Entry, Event, NamedScene, Plan, Waves};
+use crate::scratch::Tidy;
 use std::sync::Mutex;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::picture::{frame_picture, write_file, write_png};
@@ -13,9 +14,12 @@ const SMALL: [u32; 2] = [320, 240];
 
 #[derive(Debug, Args)]
 pub(super) struct CosimArgs {
-    /// Units and systems (see `wheatstone list`); none means all
+    /// Units and systems (see `wheatstone list`); none means all, or with --scene both systems
     #[arg(value_name = "TARGET", value_parser = parse_target)]
     targets: Vec<Target>,
+    /// Only the case or scene of this name
+    #[arg(long, value_name = "NAME")]
+    case: Option<String>,
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
@@ -49,25 +53,25 @@ enum WavesChoice {
 
 pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
-    let targets = if args.targets.is_empty() { Target::ALL.to_vec() } else { args.targets.clone() };
-    let systems = targets.iter().any(|t| t.is_system());
-    if args.common.scene.is_some() && !systems {
-        return Err(Failure::Input(
-            "--scene: only the systems minimal and hybrid draw scenes".into(),
-        ));
-    }
+    let targets = targets(args)?;
+    let scenes = scene_names(args, &targets, &settings)?;
     let out = args.out.clone().unwrap_or_else(|| output_folder("cosim"));
+    let _tidy = Tidy::new(&out);
     let rtl = args.stimulus.rtl()?;
-    let scenes = if systems { load(args, &settings)? } else { Vec::new() };
+    let scenes = load(args, &scenes, &settings)?;
     let scenes = scenes.iter().map(|(name, geometry)| NamedScene {
         name: name.clone(),
         job: job(&settings, geometry, settings.options),
     });
+    let arguments: Vec<String> =
+        std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
     let processors = std::thread::available_parallelism().map_or(1, |n| n.get());
     let plan = Plan {
         targets,
         settings,
-        words: args.common.words(),
+        program: arguments.first().cloned().unwrap_or_default(),
+        words: words(args),
+        case: args.case.clone(),
         scenes: scenes.collect(),
         scenes_only: args.common.scene.is_some(),
         seed: args.stimulus.seed,
@@ -86,41 +90,108 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let entries = regression::run(&plan, &builder, &|event| console.tell(event))?;
     console.finish();
     say!("{}", regression::table(&entries).trim_end());
-    let command = std::env::args().collect::<Vec<_>>().join(" ");
-    if let Some(file) = &args.json {
-        write_file(file, regression::json(&entries, &command).as_bytes())?;
-    }
-    if let Some(file) = &args.junit {
-        let xml = regression::junit(&entries).map_err(|error| Failure::Input(error.to_string()))?;
-        write_file(file, xml.as_bytes())?;
-    }
-    for entry in &entries {
-        for file in pictures(entry, &out)? {
-            say!("image {}", file.display());
-        }
-    }
-    let mut failed = entries.iter().filter_map(|e| e.failure.as_ref()).peekable();
-    let status = if failed.peek().is_some() { MISMATCH } else { OK };
-    for failure in failed {
-        say!("\nMISMATCH\n{failure}");
-    }
+    let command = command_line(arguments.iter().map(String::as_str));
+    let mut errors: Vec<String> = entries.iter().filter_map(unshown).collect();
+    errors.extend(write(args, &entries, &command, &out).err().map(|error| error.to_string()));
+    let mut failures = entries.iter().filter_map(|e| e.failure.as_ref()).peekable();
+    let status = match (failures.peek(), errors.is_empty()) {
+        (Some(_), _) => MISMATCH,
+        (None, false) => BAD_INPUT,
+        (None, true) => OK,
+    };
+    failures.for_each(|failure| say!("\nMISMATCH\n{failure}"));
+    errors.iter().for_each(|error| tell!("error: {error}"));
     Ok(status)
 }
 
-/// The scenes that the systems draw.
-fn load(args: &CosimArgs, settings: &Settings) -> Result<Vec<(String, Geometry)>, Failure> {
-    let load = |name: &str, size: Option<[u32; 2]>| {
+/// Why waveforms that were asked for are not there.
+fn unshown(entry: &Entry) -> Option<String> {
+    let error = entry.waves_error.as_ref()?;
+    Some(format!("waveforms of {} {}: {error}", entry.target.name(), entry.name))
+}
+
+/// Writes reports and pictures.
+fn write(args: &CosimArgs, entries: &[Entry], command: &str, out: &Path) -> Result<(), Failure> {
+    if let Some(file) = &args.json {
+        write_file(file, regression::json(entries, command).as_bytes())?;
+    }
+    if let Some(file) = &args.junit {
+        let xml = regression::junit(entries).map_err(|error| Failure::Input(error.to_string()))?;
+        write_file(file, xml.as_bytes())?;
+    }
+    for entry in entries {
+        for file in pictures(entry, out)? {
+            say!("image {}", file.display());
+        }
+    }
+    Ok(())
+}
+
+/// What is to be run.
+fn targets(args: &CosimArgs) -> Result<Vec<Target>, Failure> {
+    let has_scene = args.common.scene.is_some();
+    if args.targets.is_empty() {
+        return Ok(Target::ALL.into_iter().filter(|t| t.is_system() || !has_scene).collect());
+    }
+    match args.targets.iter().find(|t| has_scene && !t.is_system()) {
+        Some(unit) => Err(Failure::Input(format!(
+            "--scene: {} draws no scenes, only the systems minimal and hybrid do",
+            unit.name()
+        ))),
+        None => Ok(args.targets.clone()),
+    }
+}
+
+/// The scenes that are to be drawn; an error if there is no case of the name that was given.
+fn scene_names<'a>(
+    args: &'a CosimArgs,
+    targets: &[Target],
+    settings: &Settings,
+) -> Result<Vec<&'a str>, Failure> {
+    let mut scenes: Vec<&str> = match &args.common.scene {
+        Some(name) => vec![name],
+        None if targets.iter().any(|t| t.is_system()) => builtin_names().collect(),
+        None => Vec::new(),
+    };
+    let Some(case) = &args.case else { return Ok(scenes) };
+    let others = match args.common.scene {
+        Some(_) => Vec::new(),
+        None => regression::case_names(targets, settings),
+    };
+    let mut names: Vec<&str> = others.iter().map(String::as_str).collect();
+    names.extend(&scenes);
+    if !names.contains(&case.as_str()) {
+        let names: Vec<String> = names.iter().map(|name| format!("“{name}”")).collect();
+        let names = names.join(", ");
+        return Err(Failure::Input(format!("--case {case}: no such case; there are: {names}")));
+    }
+    scenes.retain(|name| name == case);
+    Ok(scenes)
+}
+
+/// The options that say what is run and where, for the command that repeats a case. Reports stay those
+/// of the first run.
+fn words(args: &CosimArgs) -> Vec<String> {
+    let mut words = args.common.words();
+    words.extend(args.stimulus.rtl.iter().flat_map(|rtl| option("--rtl", rtl.display())));
+    words.extend(choice("--waves", args.waves, WavesChoice::OnFailure));
+    words.extend(args.jobs.iter().flat_map(|jobs| option("--jobs", jobs)));
+    words.extend(args.out.iter().flat_map(|out| option("--out", out.display())));
+    words
+}
+
+/// The polygons of scenes.
+fn load(
+    args: &CosimArgs,
+    scenes: &[&str],
+    settings: &Settings,
+) -> Result<Vec<(String, Geometry)>, Failure> {
+    let load = |&name: &&str| {
+        let small = args.common.scene.is_none() && !SCENES_AT_FULL_SIZE.contains(&name);
+        let size = args.common.size.or(small.then_some(SMALL));
         Ok((name.to_owned(), args.common.geometry(name, size, settings)?))
     };
-    match &args.common.scene {
-        Some(name) => Ok(vec![load(name, args.common.size)?]),
-        None => builtin_names()
-            .map(|name| {
-                let small = !SCENES_AT_FULL_SIZE.contains(&name);
-                load(name, args.common.size.or(small.then_some(SMALL)))
-            })
-            .collect(),
-    }
+    scenes.iter().map(load).collect()
 }
 
 /// Writes what the Verilog drew.
@@ -164,26 +235,23 @@ impl Console {
             (Event::Begin(target, case), Some(bar)) => {
                 bar.set_message(format!("{}: {case}", target.name()));
             }
-            (Event::End(entry), Some(bar)) => {
-                bar.inc(1);
-                if !entry.passed() {
-                    bar.println(Console::line(entry));
-                }
-            }
-            (Event::End(entry), None) => tell!("{}", Console::line(entry)),
+            (Event::Mismatch(failure), Some(bar)) => bar.println(Console::mismatch(failure)),
+            (Event::Mismatch(failure), None) => tell!("{}", Console::mismatch(failure)),
+            (Event::End(_), Some(bar)) => bar.inc(1),
+            (Event::End(entry), None) if entry.passed() => tell!("{}", Console::line(entry)),
             _ => {}
         }
     }
 
     fn line(entry: &Entry) -> String {
-        let result = if entry.passed() { "equal" } else { "MISMATCH" };
-        let seconds = entry.time.as_secs_f64();
-        format!(
-            "{result} {} {}: {} beats in {seconds:.1} s",
-            entry.target.name(),
-            entry.name,
-            entry.beats
-        )
+        let (target, name) = (entry.target.name(), &entry.name);
+        let (beats, seconds) = (counted(entry.beats, "beat"), entry.time.as_secs_f64());
+        format!("equal {target} {name}: {beats} in {seconds:.1} s")
+    }
+
+    fn mismatch(failure: &regression::Failure) -> String {
+        let regression::Failure { target, case, what, repeat, .. } = failure;
+        format!("MISMATCH {target} {case}: {what}\n  repeat with   {repeat}")
     }
 
     fn finish(&self) {

@@ -35,6 +35,7 @@ use crate::tools::{ToolError, Toolchain};
 use crate::{BuildError, Builder};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -255,33 +256,40 @@ impl Common {
         Ok(scene.geometry(&Formats::new(&settings.config), &options)?)
     }
 
-    /// The words of the command line that chose configuration, scene and size.
+    /// The options as words of a command line.
     fn words(&self) -> Vec<String> {
         let mut words = Vec::new();
         if self.config != "default" {
-            words.push(format!("--config {}", self.config));
+            words.extend(option("--config", &self.config));
         }
-        words.extend(self.parameters.iter().map(|p| format!("--param {p}")));
-        if let Some(scene) = &self.scene {
-            words.push(format!("--scene {scene}"));
-        }
+        words.extend(self.parameters.iter().flat_map(|p| option("--param", p)));
+        words.extend(self.scene.iter().flat_map(|scene| option("--scene", scene)));
         if let Some([width, height]) = self.size {
-            words.push(format!("--size {width}x{height}"));
+            words.extend(option("--size", format!("{width}x{height}")));
         }
-        if let Some(rig) = &self.rig {
-            words.push(format!("--rig {}", rig.display()));
-        }
-        if let Some(projection) = self.projection {
-            words.push(format!("--projection {}", projection.name()));
-        }
-        if self.cull == CullChoice::Back {
-            words.push("--cull back".into());
-        }
+        words.extend(self.rig.iter().flat_map(|rig| option("--rig", rig.display())));
+        words.extend(self.projection.iter().flat_map(|kind| option("--projection", kind.name())));
+        words.extend(choice("--cull", self.cull, CullChoice::None));
         if self.wire {
             words.push("--wire".into());
         }
         words
     }
+}
+
+/// An option with its value, in one word where the value looks like another option.
+fn option(name: &str, value: impl std::fmt::Display) -> Vec<String> {
+    let value = value.to_string();
+    match value.starts_with('-') {
+        true => vec![format!("{name}={value}")],
+        false => vec![name.to_owned(), value],
+    }
+}
+
+/// An option with names as values, unless it has its default.
+fn choice<T: ValueEnum + PartialEq>(name: &str, value: T, default: T) -> Vec<String> {
+    let named = value.to_possible_value().filter(|_| value != default);
+    named.map_or(Vec::new(), |value| option(name, value.get_name()))
 }
 
 impl Stimulus {
@@ -291,19 +299,26 @@ impl Stimulus {
             return Ok(folder.clone());
         }
         // As short as it can be: the name shows up in messages.
-        if Path::new("rtl/sam_formats.vh").exists() {
+        if Path::new(MARK).exists() {
             return Ok("rtl".into());
         }
-        let here = std::env::current_dir().unwrap_or_default();
-        let source = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let folders = here.ancestors().chain(source.ancestors()).map(|folder| folder.join("rtl"));
-        let mut found = folders.filter(|folder| folder.join("sam_formats.vh").exists());
-        found.next().ok_or_else(|| {
+        workspace().map(|folder| folder.join("rtl")).ok_or_else(|| {
             Failure::Input(
                 "no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into(),
             )
         })
     }
+}
+
+/// The file by which a workspace is known.
+const MARK: &str = "rtl/sam_formats.vh";
+
+/// The workspace that the program is called in, or else the one that it was built from.
+fn workspace() -> Option<PathBuf> {
+    let here = std::env::current_dir().unwrap_or_default();
+    let source = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = here.ancestors().chain(source.ancestors());
+    folders.find(|folder| folder.join(MARK).exists()).map(Path::to_path_buf)
 }
 
 /// The job that draws a scene's polygons.
@@ -313,7 +328,8 @@ pub(crate) fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Opti
 
 /// A builder of models that tells on the terminal what it does.
 fn builder(quiet: bool) -> Result<Builder, Failure> {
-    let builder = Builder::new(Toolchain::find()?, cache_folder());
+    let builder =
+        Builder::new(Toolchain::find()?, cache_folder(workspace(), |name| std::env::var_os(name)));
     Ok(builder.on_progress(move |progress| {
         if !quiet {
             tell!("{progress}");
@@ -321,16 +337,17 @@ fn builder(quiet: bool) -> Result<Builder, Failure> {
     }))
 }
 
-/// The workspace that the program is called in.
-fn workspace() -> Option<PathBuf> {
-    let here = std::env::current_dir().ok()?;
-    let mut folders = here.ancestors().filter(|folder| folder.join("rtl/sam_formats.vh").exists());
-    folders.next().map(Path::to_path_buf)
-}
-
-/// Folder for built models, in the workspace if there is one.
-fn cache_folder() -> PathBuf {
-    workspace().or_else(|| std::env::current_dir().ok()).unwrap_or_default().join(Builder::CACHE)
+/// Folder for built models: in the workspace, or else in the user's cache.
+fn cache_folder(
+    workspace: Option<PathBuf>,
+    variable: impl Fn(&str) -> Option<OsString>,
+) -> PathBuf {
+    if let Some(folder) = workspace {
+        return folder.join(Builder::CACHE);
+    }
+    let folder = |name: &str| variable(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let caches = folder("XDG_CACHE_HOME").or_else(|| Some(folder("HOME")?.join(".cache")));
+    caches.unwrap_or_else(std::env::temp_dir).join("wheatstone")
 }
 
 /// Folder for what a command writes when no other is named.
@@ -404,5 +421,31 @@ mod tests {
         assert_eq!(line.common.words().join(" "), words.trim_start_matches("x "));
         let error = Line::try_parse_from("x --projection none".split(' ')).err();
         assert!(error.is_some_and(|e| e.to_string().contains("two-centres, shear")));
+    }
+
+    #[test]
+    fn models_are_kept_in_the_workspace_or_in_the_cache_of_the_user() {
+        let folder = |workspace: Option<&str>, set: &[(&str, &str)]| {
+            cache_folder(workspace.map(PathBuf::from), |name| {
+                set.iter().find(|(n, _)| *n == name).map(|(_, value)| value.into())
+            })
+        };
+        let (cache, home) = (("XDG_CACHE_HOME", "/c"), ("HOME", "/home/w"));
+        let models = PathBuf::from("/w/target/wheatstone/models");
+        assert_eq!(folder(Some("/w"), &[cache, home]), models);
+        assert_eq!(folder(None, &[cache, home]), PathBuf::from("/c/wheatstone"));
+        let at_home = PathBuf::from("/home/w/.cache/wheatstone");
+        assert_eq!(folder(None, &[home]), at_home);
+        // As its standard says, a relative one does not count.
+        assert_eq!(folder(None, &[("XDG_CACHE_HOME", "c"), home]), at_home);
+        assert_eq!(folder(None, &[]), std::env::temp_dir().join("wheatstone"));
+    }
+
+    #[test]
+    fn options_are_told_as_they_are_read() {
+        assert_eq!(option("--scene", "a b.obj"), ["--scene", "a b.obj"]);
+        assert_eq!(option("--out", "-x"), ["--out=-x"]);
+        assert_eq!(choice("--cull", CullChoice::Back, CullChoice::None), ["--cull", "back"]);
+        assert!(choice("--cull", CullChoice::None, CullChoice::None).is_empty());
     }
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::cases::{self, Case};
 use crate::pack;
-use crate::regression::scene_head;
+use crate::regression::{counted, scene_head};
 
 /// Random beats of a pack.
 const BEATS: u64 = 4_000;
@@ -41,7 +41,7 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
         let case = case(args, &settings, target, seed, beats)?;
         let hash = pack::rtl_hash(&rtl, target.module())?;
         let info = pack::write(&case, seed, &hash, &args.out)?;
-        say!("{}: {}, {} beats", info.folder.display(), case.name, info.beats);
+        say!("{}: {}, {}", info.folder.display(), case.name, counted(info.beats, "beat"));
     }
     let folder = args.out.display();
     say!("verify with:  wheatstone check {folder}");
@@ -78,7 +78,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
     for checked in &packs {
         let manifest = &checked.manifest;
         let beats: u64 = manifest.ports.iter().map(|p| p.beats).sum();
-        let sound = format!("{}: sound, {beats} beats", checked.folder.display());
+        let sound = format!("{}: sound, {}", checked.folder.display(), counted(beats, "beat"));
         match &rtl {
             None => say!("{sound}; no Verilog here to compare with"),
             Some(rtl) if pack::rtl_hash(rtl, &manifest.module)? == manifest.rtl_blake3 => {

@@ -1,8 +1,16 @@
 //! `wheatstone waves`.
 
 use super::*;
-use crate::regression::{record_waves, Focus};
+use crate::regression::{command_line, record_waves, Focus};
+use crate::scratch::Tidy;
+use crate::tools::GTKWAVE;
+use std::io::{Read, Seek};
+use std::process::Stdio;
+use std::time::{Duration, Instant};
 use wheatstone_golden::formats::Eye;
+
+/// How long GTKWave must live to count as open.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 #[derive(Debug, Args)]
 pub(super) struct WavesArgs {
@@ -58,6 +66,7 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
     };
     let job = geometry.as_ref().map(|geometry| job(&settings, geometry, settings.options));
     let out = args.out.clone().unwrap_or_else(|| output_folder("waves"));
+    let _tidy = Tidy::new(&out);
     std::fs::create_dir_all(&out).map_err(|source| WriteError { file: out.clone(), source })?;
     let rtl = args.stimulus.rtl()?;
     let builder = builder(false)?;
@@ -84,14 +93,36 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
         say!("marker on cycle {marker}");
     }
     let view = waves.file.with_extension("gtkw");
-    say!("open with:  gtkwave {}", view.display());
+    say!("open with:  {}", command_line(["gtkwave", &view.to_string_lossy()]));
     if args.open {
-        let gtkwave =
-            crate::tools::GTKWAVE.find_in(&std::env::var_os("PATH").unwrap_or_default())?;
-        std::process::Command::new(&gtkwave.program)
-            .arg(&view)
-            .spawn()
-            .map_err(|source| WriteError { file: gtkwave.program.clone(), source })?;
+        open(&view)?;
     }
     Ok(OK)
+}
+
+/// Opens a view in GTKWave, and waits until it would have said that it cannot: without a display it
+/// prints why and how it is used, and ends as if all were well.
+fn open(view: &Path) -> Result<(), Failure> {
+    let gtkwave = GTKWAVE.find_in(&std::env::var_os("PATH").unwrap_or_default())?;
+    let at = |source| WriteError { file: gtkwave.program.clone(), source };
+    let mut said = tempfile::tempfile().map_err(at)?;
+    let mut command = std::process::Command::new(&gtkwave.program);
+    command.arg(view).stdin(Stdio::null()).stdout(Stdio::null());
+    let mut child = command.stderr(said.try_clone().map_err(at)?).spawn().map_err(at)?;
+    let start = Instant::now();
+    let status = loop {
+        match child.try_wait().map_err(at)? {
+            None if start.elapsed() < PATIENCE => std::thread::sleep(PATIENCE / 20),
+            status => break status,
+        }
+    };
+    let Some(status) = status else { return Ok(()) };
+    let mut text = String::new();
+    let _ = said.rewind().and_then(|()| said.read_to_string(&mut text));
+    let why = match text.lines().map(str::trim).find(|line| !line.is_empty()) {
+        None if status.success() => return Ok(()),
+        None => status.to_string(),
+        Some(line) => line.to_owned(),
+    };
+    Err(Failure::Input(format!("{} ended at once: {why}", gtkwave.program.display())))
 }

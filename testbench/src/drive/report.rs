@@ -13,16 +13,6 @@ pub(super) fn payload(model: &Model, stream: &StreamSignals) -> Vec<u64> {
     (0..stream.width).map(|field| model.peek(stream.field(field))).collect()
 }
 
-fn differences(fields: &[Field], expected: &[u64], actual: &[u64]) -> Vec<Difference> {
-    let values = expected.iter().zip(actual);
-    fields
-        .iter()
-        .zip(values)
-        .filter(|(_, (expected, actual))| expected != actual)
-        .map(|(field, (&expected, &actual))| Difference { field: field.clone(), expected, actual })
-        .collect()
-}
-
 fn stopped(fault: Fault, stream: &'static str, cycle: u64) -> Mismatch {
     Mismatch {
         fault,
@@ -53,7 +43,7 @@ impl Run<'_> {
         actual: Vec<u64>,
     ) -> Outcome {
         let (beat, expected) = (self.cursors[number].done, self.row(number).to_vec());
-        let differences = differences(fields, &expected, &actual);
+        let differences = Difference::all(fields, &expected, &actual);
         let mismatch = Mismatch { fault, place, beat, cycle, differences, expected, actual };
         Outcome::Mismatch(Box::new(mismatch))
     }

@@ -14,7 +14,7 @@ pub use error::PackError;
 pub use write::{rtl_hash, write, PackInfo};
 
 use serde::{Deserialize, Serialize};
-use wheatstone_golden::interface::{Field, Kind};
+use wheatstone_golden::interface::{Direction, Field, Kind, Stream};
 
 /// Version of the layout; a pack with a greater one is refused.
 pub const SCHEMA: u32 = 1;
@@ -52,6 +52,18 @@ pub struct Manifest {
     pub ports: Vec<Port>,
     /// Files that replay the pack, with their hashes.
     pub bench: Vec<HashedFile>,
+    /// BLAKE3 of the manifest as compact JSON with this field empty: no field changes unnoticed.
+    pub hash: String,
+}
+
+impl Manifest {
+    /// What the field `hash` must say.
+    pub fn digest(&self) -> String {
+        let emptied = Manifest { hash: String::new(), ..self.clone() };
+        // Text and numbers cannot fail to be written.
+        let json = serde_json::to_vec(&emptied).unwrap_or_default();
+        blake3::hash(&json).to_hex().to_string()
+    }
 }
 
 /// A name and a number.
@@ -117,6 +129,14 @@ pub struct PackedField {
     pub fraction: u32,
     /// Meaning.
     pub doc: String,
+}
+
+/// `input` or `output`.
+fn direction_name(stream: &Stream) -> &'static str {
+    match stream.direction {
+        Direction::Input => "input",
+        Direction::Output => "output",
+    }
 }
 
 /// Fields of a stream, with their places in a packed beat.

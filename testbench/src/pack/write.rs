@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::cases::Case;
+use crate::scratch::Scratch;
 use std::fs;
 use std::path::{Path, PathBuf};
-use wheatstone_golden::header::formats_header;
-use wheatstone_golden::interface::{Direction, Stream, Table};
+use wheatstone_golden::interface::Table;
 
 /// What was written.
 #[derive(Clone, Debug)]
@@ -22,10 +22,7 @@ pub struct PackInfo {
 /// complete or not at all.
 pub fn write(case: &Case, seed: u64, rtl_blake3: &str, out: &Path) -> Result<PackInfo, PackError> {
     fs::create_dir_all(out).map_err(PackError::at(out))?;
-    let temporary = tempfile::Builder::new()
-        .prefix(&format!(".{}-", case.target.name()))
-        .tempdir_in(out)
-        .map_err(PackError::at(out))?;
+    let temporary = Scratch::new(out).map_err(PackError::at(out))?;
     let manifest = fill(case, seed, rtl_blake3, temporary.path())?;
     let folder = out.join(case.target.name());
     replace(temporary, &folder)?;
@@ -45,24 +42,15 @@ pub fn rtl_hash(rtl: &Path, module: &str) -> Result<String, PackError> {
 }
 
 /// Puts a finished folder in the place of an older one.
-fn replace(finished: tempfile::TempDir, folder: &Path) -> Result<(), PackError> {
-    use std::os::unix::fs::PermissionsExt;
-    let at = || PackError::at(folder);
-    // A temporary folder is private; a pack is not.
-    fs::set_permissions(finished.path(), fs::Permissions::from_mode(0o755)).map_err(at())?;
+fn replace(finished: Scratch, folder: &Path) -> Result<(), PackError> {
     if folder.exists() {
         if !folder.join(MANIFEST).exists() {
             let source = std::io::Error::other("exists and is no vector pack; it is left alone");
             return Err(PackError::File { path: folder.into(), source });
         }
-        fs::remove_dir_all(folder).map_err(at())?;
+        fs::remove_dir_all(folder).map_err(PackError::at(folder))?;
     }
-    let finished = finished.keep();
-    fs::rename(&finished, folder).map_err(|error| {
-        // Best effort: the error that matters is the first.
-        let _ = fs::remove_dir_all(&finished);
-        at()(error)
-    })
+    finished.persist(folder).map_err(PackError::at(folder))
 }
 
 fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manifest, PackError> {
@@ -99,15 +87,12 @@ fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manif
         rtl_blake3: rtl_blake3.into(),
         ports,
         bench: Vec::new(),
+        hash: String::new(),
     };
-    for (file, text) in [
-        ("vec.vh", replay::header(&manifest, &interface)),
-        ("replay.v", replay::bench(&manifest, &interface)),
-        // The Verilog includes it, and `-I PACK` is all that a simulator is told.
-        ("sam_formats.vh", formats_header()),
-    ] {
+    for (file, text) in replay::files(&manifest, &interface) {
         manifest.bench.push(save(folder, file, text.as_bytes())?);
     }
+    manifest.hash = manifest.digest();
     let json = serde_json::to_string_pretty(&manifest).map_err(|error| PackError::Manifest {
         path: folder.join(MANIFEST),
         line: error.line(),
@@ -127,13 +112,9 @@ fn port(stream: &Stream, table: &Table, folder: &Path) -> Result<Port, PackError
         pack(table.row(index), &fields, &mut bytes);
     }
     let text = mem_text(&bytes, beat_bytes, bits);
-    let direction = match stream.direction {
-        Direction::Input => "input",
-        Direction::Output => "output",
-    };
     Ok(Port {
         name: stream.name.into(),
-        direction: direction.into(),
+        direction: direction_name(stream).into(),
         answers: stream.answers.map(Into::into),
         beats: table.len() as u64,
         bits,

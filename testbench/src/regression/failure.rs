@@ -1,9 +1,12 @@
 //! The first-mismatch report, and the run that repeats it with waveforms.
 
-use super::run::{MemoryFault, Ran};
-use super::{Plan, RegressionError, Waves};
-use crate::{waves, Fault, Library, Mismatch, Outcome, Place, Probe, Stalls, TraceWindow};
+use super::report::counted;
+use super::run::{MemoryFault, Ran, Setting};
+use super::{Event, Ground, RegressionError, Waves};
+use crate::waves::{Dump, View};
+use crate::{Difference, Fault, Library, Mismatch, Outcome, Place, Probe};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::fmt;
 use std::fs;
 use std::ops::RangeInclusive;
@@ -13,7 +16,6 @@ use wheatstone_golden::interface::{Beat, Direction};
 use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::pipeline::{Mode, Op, Pixel, PrimaryBeat, Request, Setup};
 use wheatstone_golden::record::Recording;
-use wheatstone_golden::targets::Target;
 
 /// Cycles shown before a difference.
 const BEFORE: u64 = 100;
@@ -69,44 +71,123 @@ pub struct Failure {
     pub repeat: String,
     /// Waveforms around the cycle.
     pub waves: Option<PathBuf>,
+    /// Why there are none.
+    pub waves_error: Option<String>,
+}
+
+/// One run of a case.
+pub(super) struct Attempt<'a> {
+    pub ground: &'a Ground<'a>,
+    /// Name of the entry.
+    pub case: &'a str,
+    /// Number of the run in its entry, from 1.
+    pub run: u64,
+    /// Random beats that the case was made of, or that were asked for.
+    pub beats: Option<u64>,
+    pub setting: &'a Setting<'a>,
+}
+
+impl Attempt<'_> {
+    /// The report of a run that failed; `again` repeats it with waveforms. It is told of before that:
+    /// whatever becomes of the waveforms, the difference is known.
+    pub fn fail(
+        &self,
+        ran: &Ran,
+        again: impl FnOnce(&Setting) -> Result<(), RegressionError>,
+    ) -> Failure {
+        let mut failure = Failure::new(self, ran);
+        (self.ground.tell)(Event::Mismatch(&failure));
+        if let Some(cycle) = failure.cycle.filter(|_| self.ground.plan.waves != Waves::Never) {
+            let cycles = cycle.saturating_sub(BEFORE)..=cycle + AFTER;
+            match self.waves(cycles, Some((cycle, "first mismatch")), again) {
+                Ok(file) => failure.waves = Some(file),
+                Err(error) => failure.waves_error = Some(error.to_string()),
+            }
+        }
+        failure
+    }
+
+    /// Writes waveforms and their views; `again` repeats the run.
+    pub fn waves(
+        &self,
+        cycles: RangeInclusive<u64>,
+        marker: Option<(u64, &str)>,
+        again: impl FnOnce(&Setting) -> Result<(), RegressionError>,
+    ) -> Result<PathBuf, RegressionError> {
+        let Ground { plan, library, target, .. } = self.ground;
+        let dump = Dump::new(cycles)?;
+        again(&Setting { trace: Some(dump.window()), ..self.setting.clone() })?;
+        let out = &plan.out;
+        fs::create_dir_all(out)
+            .map_err(|source| RegressionError::File { path: out.clone(), source })?;
+        let (target, case, seed) = (target.name(), slug(self.case), self.setting.seed);
+        let place = out.join(format!("{target}-{case}-seed{seed}-run{}.fst", self.run));
+        let (interface, units) = (library.interface(), library.probes());
+        dump.deliver(&place, &View { interface, units, marker })?;
+        Ok(place)
+    }
+
+    /// The command that repeats the case from its seed.
+    fn repeat(&self) -> String {
+        let Ground { plan, target, .. } = self.ground;
+        let (seed, beats) = (self.setting.seed.to_string(), self.beats.map(|n| n.to_string()));
+        let mut words = vec![plan.program.as_str(), "cosim", target.name()];
+        words.extend(plan.words.iter().map(String::as_str));
+        words.extend(["--case", self.case, "--seed", &seed]);
+        words.extend(beats.iter().flat_map(|beats| ["--beats", beats]));
+        command_line(words)
+    }
+}
+
+/// A case's name as part of the name of a file.
+fn slug(case: &str) -> String {
+    let stem = Path::new(case).file_stem().unwrap_or_default().to_string_lossy();
+    let words = stem.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty());
+    words.collect::<Vec<_>>().join("-")
+}
+
+/// Words as a command for a shell.
+pub(crate) fn command_line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    words.into_iter().map(quoted).collect::<Vec<_>>().join(" ")
+}
+
+/// A word as a POSIX shell reads it.
+fn quoted(word: &str) -> Cow<'_, str> {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_@%+=:,./-".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.into();
+    }
+    format!("'{}'", word.replace('\'', r"'\''")).into()
 }
 
 impl Failure {
-    /// The report of a run that failed; `again` repeats it with waveforms.
-    #[allow(clippy::too_many_arguments)] // One call site, and each argument is a different thing.
-    pub(super) fn new(
-        plan: &Plan,
-        target: Target,
-        case: &str,
-        seed: u64,
-        stalls: Stalls,
-        ran: Ran,
-        library: &Library,
-        again: impl FnOnce(TraceWindow) -> Result<(), RegressionError>,
-    ) -> Result<Failure, RegressionError> {
+    fn new(attempt: &Attempt, ran: &Ran) -> Failure {
+        let target = attempt.ground.target.name();
+        let Setting { seed, stalls, .. } = *attempt.setting;
         let mut failure = Failure {
-            target: target.name(),
-            case: case.into(),
+            target,
+            case: attempt.case.into(),
             what: ran.outcome.to_string(),
             pixel: None,
             polygon: None,
             field: None,
             expected: None,
             actual: None,
-            unit: target.name().into(),
+            unit: target.into(),
             stream: None,
             cycle: None,
             seed,
             stalls: [stalls.idle.name(), stalls.back_pressure.name()],
-            repeat: repeat(plan, target, seed),
+            repeat: attempt.repeat(),
             waves: None,
+            waves_error: None,
         };
         match &ran.outcome {
             Outcome::Mismatch(mismatch) => {
                 failure.mismatch(mismatch, ran.recording.as_deref());
                 // What comes into a unit wrong is not the unit's fault.
-                if goes_in(library, &mismatch.place) {
-                    failure.unit = target.name().into();
+                if goes_in(&attempt.ground.library, &mismatch.place) {
+                    failure.unit = target.into();
                 }
             }
             Outcome::Hung(hung) => failure.cycle = Some(hung.cycle),
@@ -121,16 +202,7 @@ impl Failure {
         if let Some(fault) = fault {
             failure.memory(fault);
         }
-        if plan.waves != Waves::Never {
-            if let Some(cycle) = failure.cycle {
-                let window =
-                    window(plan, target, seed, cycle.saturating_sub(BEFORE)..=cycle + AFTER)?;
-                again(window.clone())?;
-                view(library, &window, Some(cycle), "first mismatch")?;
-                failure.waves = Some(window.path);
-            }
-        }
-        Ok(failure)
+        failure
     }
 
     fn mismatch(&mut self, mismatch: &Mismatch, recording: Option<&Recording>) {
@@ -140,11 +212,7 @@ impl Failure {
             let name = instance.split('.').next_back().unwrap_or(instance);
             self.unit = name.strip_prefix("u_").unwrap_or(name).into();
         }
-        if let Some(first) = mismatch.differences.first() {
-            self.field = Some(first.field.name.into());
-            self.expected = Some(first.field.display(first.expected));
-            self.actual = Some(first.field.display(first.actual));
-        }
+        self.difference(&mismatch.differences);
         if mismatch.fault == Fault::Flag {
             return;
         }
@@ -163,22 +231,31 @@ impl Failure {
     }
 
     fn memory(&mut self, fault: &MemoryFault) {
+        let differences = fault.differences();
+        let list = Difference::list(&differences);
         match fault {
-            MemoryFault::Stale { read, expected, actual } => {
-                self.what = format!("background read {read} gave a stale value");
+            MemoryFault::Stale { read, .. } => {
+                self.what = format!("background read {read} gave a stale value: {list}");
                 self.unit = "slot_queue".into();
                 self.stream = Some("response".into());
-                self.field = None;
-                self.expected = Some(format!("{expected:?}"));
-                self.actual = Some(format!("{actual:?}"));
             }
-            MemoryFault::Pixel { eye, x, y, expected, actual, count } => {
-                self.what = format!("{count} pixels of the {} frame buffer differ", eye.name());
+            MemoryFault::Pixel { eye, x, y, count, .. } => {
+                let (pixels, eye_name) = (counted(*count, "pixel"), eye.name());
+                let differ = if *count == 1 { "differs" } else { "differ" };
+                self.what =
+                    format!("{pixels} of the {eye_name} frame buffer {differ}; first: {list}");
                 self.pixel = Some(Location { eye: *eye, x: *x, y: *y });
-                self.expected = Some(format!("{expected:?}"));
-                self.actual = Some(format!("{actual:?}"));
             }
         }
+        self.difference(&differences);
+    }
+
+    /// The field that differs first.
+    fn difference(&mut self, differences: &[Difference]) {
+        let first = differences.first();
+        self.field = first.map(|d| d.field.name.into());
+        self.expected = first.map(|d| d.field.display(d.expected));
+        self.actual = first.map(|d| d.field.display(d.actual));
     }
 }
 
@@ -236,43 +313,6 @@ fn locate(
     Some(Location { eye, x: row[0] as u32, y: row[1] as u32 })
 }
 
-/// The command that repeats a case from its seed.
-fn repeat(plan: &Plan, target: Target, seed: u64) -> String {
-    let mut words = vec!["wheatstone cosim".to_owned(), target.name().to_owned()];
-    words.extend(plan.words.iter().cloned());
-    words.push(format!("--seed {seed}"));
-    words.join(" ")
-}
-
-/// A window of cycles in a new waveform file of a target.
-pub(super) fn window(
-    plan: &Plan,
-    target: Target,
-    seed: u64,
-    cycles: RangeInclusive<u64>,
-) -> Result<TraceWindow, RegressionError> {
-    let at = |path: &Path| {
-        let path = path.to_owned();
-        move |source| RegressionError::File { path, source }
-    };
-    fs::create_dir_all(&plan.out).map_err(at(&plan.out))?;
-    let path = plan.out.join(format!("{}-{seed}.fst", target.name()));
-    Ok(TraceWindow { path, from_cycle: *cycles.start(), to_cycle: *cycles.end() })
-}
-
-/// Writes the views beside a waveform file.
-pub(super) fn view(
-    library: &Library,
-    window: &TraceWindow,
-    marker: Option<u64>,
-    name: &str,
-) -> Result<(), RegressionError> {
-    let (interface, units) = (library.interface(), library.probes());
-    let marker = marker.map(|cycle| (cycle, name));
-    waves::write_views(&window.path, &waves::View { interface, units, marker })?;
-    Ok(())
-}
-
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut line = |name: &str, value: Option<&dyn fmt::Display>| match value {
@@ -295,12 +335,14 @@ impl fmt::Display for Failure {
             format!("{} (idle {}, back-pressure {})", self.seed, self.stalls[0], self.stalls[1]);
         line("seed", Some(&stalls))?;
         line("repeat with", Some(&self.repeat))?;
+        if let Some(error) = &self.waves_error {
+            line("waveforms", Some(&format!("failed because {error}")))?;
+        }
         if let Some(waves) = &self.waves {
             line("waveforms", Some(&waves.display()))?;
-            line(
-                "open with",
-                Some(&format!("gtkwave {}", waves.with_extension("gtkw").display())),
-            )?;
+            let view = waves.with_extension("gtkw");
+            let command = command_line(["gtkwave", &view.to_string_lossy()]);
+            line("open with", Some(&command))?;
         }
         Ok(())
     }

@@ -9,7 +9,9 @@ mod report;
 mod run;
 mod waves;
 
+pub(crate) use failure::command_line;
 pub use failure::{Failure, Location};
+pub(crate) use report::counted;
 pub use report::{drawn_line, json, junit, table};
 pub use run::{model_probes, run_case, run_scene, MemoryFault, Ran, SceneRan, Setting};
 pub use waves::{record_waves, scene_head, Focus, Waves as WaveFile};
@@ -17,6 +19,7 @@ pub use waves::{record_waves, scene_head, Focus, Waves as WaveFile};
 use crate::cases::{self, Case};
 use crate::settings::Settings;
 use crate::{BuildError, Builder, JobError, Library, LoadError, Pattern, Spec, Stalls, TraceError};
+use failure::Attempt;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock};
@@ -36,6 +39,10 @@ pub const SYSTEM_BEATS: u64 = 200_000;
 const BATCH: u64 = 28_000;
 /// Beats of a system's batch, which has stalls of its own too.
 const SYSTEM_BATCH: u64 = 5_600;
+/// Name of the case of random beats.
+const RANDOM: &str = "random";
+/// Last cycle of waveforms that are written of a case that passed.
+const HEAD: u64 = 2_000;
 /// Latency of the memory when throughput is measured, in clocks.
 pub const MEASURED_LATENCY: u64 = 4;
 
@@ -96,8 +103,12 @@ pub struct Plan<'a> {
     pub targets: Vec<Target>,
     /// Build parameters and choices.
     pub settings: Settings,
-    /// The words of the command line that chose them, for the command that repeats a case.
+    /// The program, for the command that repeats a case.
+    pub program: String,
+    /// The options of that command that all cases have in common, word by word.
     pub words: Vec<String>,
+    /// Only cases of this name.
+    pub case: Option<String>,
     /// Scenes for the systems.
     pub scenes: Vec<NamedScene<'a>>,
     /// Leave out directed and random cases of systems.
@@ -138,6 +149,8 @@ pub struct Entry {
     pub failure: Option<Failure>,
     /// Waveforms written on request.
     pub waves: Option<PathBuf>,
+    /// Why there are none.
+    pub waves_error: Option<String>,
 }
 
 /// What there is to say of a scene.
@@ -164,6 +177,8 @@ pub enum Event<'a> {
     Planned(usize),
     /// A case begins.
     Begin(Target, &'a str),
+    /// A case failed; waveforms come next.
+    Mismatch(&'a Failure),
     /// A case has ended.
     End(&'a Entry),
 }
@@ -173,6 +188,14 @@ enum Work<'a> {
     Directed(Target, usize),
     Random(Target),
     Scene(Target, &'a NamedScene<'a>),
+}
+
+/// What the runs of an entry have in common.
+struct Ground<'a> {
+    plan: &'a Plan<'a>,
+    tell: &'a (dyn Fn(Event) + Sync),
+    library: Library,
+    target: Target,
 }
 
 /// Models of the targets, built when first needed.
@@ -241,18 +264,37 @@ pub fn run(
 }
 
 fn list_work<'a>(plan: &'a Plan<'a>) -> Vec<Work<'a>> {
+    let is_wanted = |name: &str| plan.case.as_deref().is_none_or(|case| case == name);
     let mut work = Vec::new();
     for &target in &plan.targets {
         if !(plan.scenes_only && target.is_system()) {
-            let directed = cases::directed(target, &plan.settings.config).len();
-            work.extend((0..directed).map(|n| Work::Directed(target, n)));
-            work.push(Work::Random(target));
+            let directed = cases::directed(target, &plan.settings.config);
+            let wanted = (0..directed.len()).filter(|&n| is_wanted(&directed[n].name));
+            work.extend(wanted.map(|n| Work::Directed(target, n)));
+            if is_wanted(RANDOM) {
+                work.push(Work::Random(target));
+            }
         }
         if target.is_system() {
-            work.extend(plan.scenes.iter().map(|scene| Work::Scene(target, scene)));
+            let wanted = plan.scenes.iter().filter(|scene| is_wanted(&scene.name));
+            work.extend(wanted.map(|scene| Work::Scene(target, scene)));
         }
     }
     work
+}
+
+/// Names of the cases that targets have besides scenes, each once.
+pub fn case_names(targets: &[Target], settings: &Settings) -> Vec<String> {
+    let mut names = Vec::new();
+    for &target in targets {
+        let directed = cases::directed(target, &settings.config).into_iter().map(|case| case.name);
+        for name in directed.chain([RANDOM.to_owned()]) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    names
 }
 
 fn do_work(
@@ -261,19 +303,22 @@ fn do_work(
     work: &Work,
     tell: &(dyn Fn(Event) + Sync),
 ) -> Result<Entry, RegressionError> {
+    let ground = |target: Target| -> Result<Ground, RegressionError> {
+        Ok(Ground { plan, tell, library: models.get(target)?, target })
+    };
     let entry = match work {
         Work::Directed(target, n) => {
             let case = cases::directed(*target, &plan.settings.config).swap_remove(*n);
             tell(Event::Begin(*target, &case.name));
-            directed(plan, &models.get(*target)?, case)?
+            directed(&ground(*target)?, &case)?
         }
         Work::Random(target) => {
-            tell(Event::Begin(*target, "random"));
-            random(plan, &models.get(*target)?, *target)?
+            tell(Event::Begin(*target, RANDOM));
+            random(&ground(*target)?)?
         }
         Work::Scene(target, scene) => {
             tell(Event::Begin(*target, &scene.name));
-            draw(plan, &models.get(*target)?, *target, scene)?
+            draw(&ground(*target)?, scene)?
         }
     };
     tell(Event::End(&entry));
@@ -293,6 +338,7 @@ impl Entry {
             scene: None,
             failure: None,
             waves: None,
+            waves_error: None,
         }
     }
 
@@ -311,47 +357,48 @@ impl Entry {
     }
 }
 
-/// Runs a case and, if it fails, once more with waveforms.
-fn try_case(
-    plan: &Plan,
-    entry: &mut Entry,
-    library: &Library,
-    case: &Case,
-    seed: u64,
-    stalls: Stalls,
-) -> Result<(), RegressionError> {
-    let mut setting =
-        Setting { library, seed, stalls, latency: plan.settings.latency, trace: None };
-    if plan.waves == Waves::Always && entry.runs == 0 {
-        setting.trace = Some(failure::window(plan, case.target, seed, 0..=2_000)?);
-        entry.waves = setting.trace.as_ref().map(|t| t.path.clone());
+impl Ground<'_> {
+    fn setting(&self, seed: u64, stalls: Stalls) -> Setting<'_> {
+        let latency = self.plan.settings.latency;
+        Setting { library: &self.library, seed, stalls, latency, trace: None }
     }
+}
+
+/// Runs a case and, if it fails or waveforms of all are wanted, once more with waveforms.
+fn try_case(
+    ground: &Ground,
+    entry: &mut Entry,
+    case: &Case,
+    beats: Option<u64>,
+    setting: &Setting,
+) -> Result<(), RegressionError> {
     let start = Instant::now();
-    let ran = run_case(&setting, case)?;
+    let ran = run_case(setting, case)?;
     entry.add(&ran, case.beats(), start.elapsed());
+    let attempt = Attempt { ground, case: &entry.name, run: entry.runs, beats, setting };
+    let again = |trace: &Setting| run_case(trace, case).map(drop);
     if !ran.passed() {
-        let again = |window| {
-            setting.trace = Some(window);
-            run_case(&setting, case).map(drop)
-        };
-        entry.failure =
-            Some(Failure::new(plan, case.target, &case.name, seed, stalls, ran, library, again)?);
-    } else if let Some(trace) = &setting.trace {
-        failure::view(library, trace, None, "")?;
+        entry.failure = Some(attempt.fail(&ran, again));
+    } else if ground.plan.waves == Waves::Always && entry.runs == 1 {
+        match attempt.waves(0..=HEAD, None, again) {
+            Ok(file) => entry.waves = Some(file),
+            Err(error) => entry.waves_error = Some(error.to_string()),
+        }
     }
     Ok(())
 }
 
-fn directed(plan: &Plan, library: &Library, case: Case) -> Result<Entry, RegressionError> {
+fn directed(ground: &Ground, case: &Case) -> Result<Entry, RegressionError> {
     let mut entry = Entry::new(case.target, &case.name);
+    let (seed, beats) = (ground.plan.seed, ground.plan.beats);
     let crossed = [
         Stalls::NONE,
-        Stalls { idle: Pattern::Random50, back_pressure: Pattern::None, seed: plan.seed },
-        Stalls { idle: Pattern::None, back_pressure: Pattern::Bursts, seed: plan.seed },
-        Stalls { idle: Pattern::Gaps, back_pressure: Pattern::Random50, seed: plan.seed },
+        Stalls { idle: Pattern::Random50, back_pressure: Pattern::None, seed },
+        Stalls { idle: Pattern::None, back_pressure: Pattern::Bursts, seed },
+        Stalls { idle: Pattern::Gaps, back_pressure: Pattern::Random50, seed },
     ];
     for stalls in crossed {
-        try_case(plan, &mut entry, library, &case, plan.seed, stalls)?;
+        try_case(ground, &mut entry, case, beats, &ground.setting(seed, stalls))?;
         if !entry.passed() {
             break;
         }
@@ -359,8 +406,9 @@ fn directed(plan: &Plan, library: &Library, case: Case) -> Result<Entry, Regress
     Ok(entry)
 }
 
-fn random(plan: &Plan, library: &Library, target: Target) -> Result<Entry, RegressionError> {
-    let mut entry = Entry::new(target, "random");
+fn random(ground: &Ground) -> Result<Entry, RegressionError> {
+    let (plan, target) = (ground.plan, ground.target);
+    let mut entry = Entry::new(target, RANDOM);
     let (default, batch) =
         if target.is_system() { (SYSTEM_BEATS, SYSTEM_BATCH) } else { (UNIT_BEATS, BATCH) };
     let beats = plan.beats.unwrap_or(default);
@@ -368,36 +416,34 @@ fn random(plan: &Plan, library: &Library, target: Target) -> Result<Entry, Regre
     while entry.beats < beats && entry.passed() {
         let size = batch.min(beats - entry.beats);
         let case = cases::random(target, &plan.settings.config, seed, size as usize);
-        try_case(plan, &mut entry, library, &case, seed, stalls_of(seed))?;
+        let setting = ground.setting(seed, stalls_of(seed));
+        try_case(ground, &mut entry, &case, Some(size), &setting)?;
         seed = seed.wrapping_add(1);
     }
     Ok(entry)
 }
 
-/// Draws a scene twice: without stalls and with a steady memory, where throughput is measured, and
-/// with stalls and a memory of random latency.
-fn draw(
-    plan: &Plan,
-    library: &Library,
-    target: Target,
-    scene: &NamedScene,
-) -> Result<Entry, RegressionError> {
+/// Draws a scene three times: without stalls and with a steady memory, where throughput is measured;
+/// then with a memory of random latency, once with stalls on both sides and once with back-pressure
+/// alone, which keeps everything inside full.
+fn draw(ground: &Ground, scene: &NamedScene) -> Result<Entry, RegressionError> {
+    let (plan, target) = (ground.plan, ground.target);
     let mut entry = Entry::new(target, &scene.name);
     let steady = Some(plan.settings.latency.unwrap_or(MEASURED_LATENCY));
     let stalled = stalls_of(plan.seed.wrapping_mul(7).wrapping_add(8));
-    for (stalls, latency) in [(Stalls::NONE, steady), (stalled, plan.settings.latency)] {
-        let mut setting = Setting { library, seed: plan.seed, stalls, latency, trace: None };
-        let SceneRan { ran, drawn, frames, simulation } =
-            run_scene(&setting, target, &scene.job, |_| ())?;
+    let back_pressure = Pattern::ALL[1 + (plan.seed % 5) as usize];
+    let full = Stalls { idle: Pattern::None, back_pressure, seed: plan.seed };
+    let latency = plan.settings.latency;
+    for (stalls, latency) in [(Stalls::NONE, steady), (stalled, latency), (full, latency)] {
+        let setting = Setting { latency, ..ground.setting(plan.seed, stalls) };
+        let run = |setting: &Setting| run_scene(setting, target, &scene.job, |_| ());
+        let SceneRan { ran, drawn, frames, simulation } = run(&setting)?;
         entry.add(&ran, drawn.beats(), simulation);
         if !ran.passed() {
-            let again = |window| {
-                setting.trace = Some(window);
-                run_scene(&setting, target, &scene.job, |_| ()).map(drop)
-            };
-            let failure =
-                Failure::new(plan, target, &scene.name, plan.seed, stalls, ran, library, again)?;
-            entry.failure = Some(failure);
+            let (case, run_number) = (&scene.name, entry.runs);
+            let attempt =
+                Attempt { ground, case, run: run_number, beats: plan.beats, setting: &setting };
+            entry.failure = Some(attempt.fail(&ran, |trace| run(trace).map(drop)));
             break;
         }
         if entry.scene.is_none() {

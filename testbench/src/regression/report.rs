@@ -23,6 +23,11 @@ fn grouped(n: u64) -> String {
     text
 }
 
+/// So many things, singular where it is one.
+pub(crate) fn counted(n: u64, thing: &str) -> String {
+    format!("{} {thing}{}", grouped(n), if n == 1 { "" } else { "s" })
+}
+
 /// The table of targets, cases, what was compared, and mismatches.
 pub fn table(entries: &[Entry]) -> String {
     let mut table = Table::new();
@@ -65,19 +70,19 @@ pub fn table(entries: &[Entry]) -> String {
     let compared: u64 = entries.iter().map(|e| e.compared).sum();
     let pixels: u64 = entries.iter().filter_map(|e| e.scene.as_ref()).map(|s| s.pixels).sum();
     text + &format!(
-        "{} cases, {} beats and {} pixels compared, mismatches {failed}\n",
-        entries.len(),
-        grouped(compared),
-        grouped(pixels)
+        "{}, {} and {} compared, mismatches {failed}\n",
+        counted(entries.len() as u64, "case"),
+        counted(compared, "beat"),
+        counted(pixels, "pixel")
     )
 }
 
 /// How a scene went, in a line.
 fn scene_line(scene: &SceneEntry) -> String {
     format!(
-        "{}; {} clocks, beats on {:.2} % of them; pixels left {}, right {}",
+        "{}; {}, beats on {:.2} % of them; pixels left {}, right {}",
         drawn_line(&scene.drawn),
-        grouped(scene.clocks),
+        counted(scene.clocks, "clock"),
         100.0 * scene.acceptance,
         grouped(scene.written[0]),
         grouped(scene.written[1]),
@@ -86,10 +91,8 @@ fn scene_line(scene: &SceneEntry) -> String {
 
 /// How polygons were drawn, in a line.
 pub fn drawn_line(drawn: &Drawn) -> String {
-    let mut parts = vec![
-        format!("{} polygons", grouped(drawn.polygons)),
-        format!("{} derived", grouped(drawn.derived)),
-    ];
+    let mut parts =
+        vec![counted(drawn.polygons, "polygon"), format!("{} derived", grouped(drawn.derived))];
     let reasons: Vec<String> = drawn
         .monocular
         .iter()
@@ -100,7 +103,7 @@ pub fn drawn_line(drawn: &Drawn) -> String {
     parts.push(format!("{} monocular{why}", grouped(monocular)));
     parts.push(format!("{} covering nothing", grouped(drawn.nothing)));
     if drawn.beats() > 0 {
-        parts.push(format!("{} beats", grouped(drawn.beats())));
+        parts.push(counted(drawn.beats(), "beat"));
     }
     parts.join(", ")
 }
@@ -120,6 +123,8 @@ struct JsonEntry<'a> {
     failure: Option<&'a Failure>,
     #[serde(skip_serializing_if = "Option::is_none")]
     waves: Option<&'a PathBuf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    waves_error: Option<&'a String>,
 }
 
 #[derive(Serialize)]
@@ -160,6 +165,7 @@ pub fn json(entries: &[Entry], command: &str) -> String {
             scene: e.scene.as_ref().map(scene),
             failure: e.failure.as_ref(),
             waves: e.waves.as_ref(),
+            waves_error: e.waves_error.as_ref(),
         };
         serde_json::to_value(entry).unwrap_or_default()
     };
@@ -189,7 +195,11 @@ pub fn junit(entries: &[Entry]) -> Result<String, quick_junit::SerializeError> {
         };
         let mut case = TestCase::new(entry.name.clone(), status);
         case.set_classname(entry.target.name()).set_time(entry.time);
-        case.set_system_out(format!("{} beats, {} compared", entry.beats, entry.compared));
+        case.set_system_out(format!(
+            "{}, {} compared",
+            counted(entry.beats, "beat"),
+            entry.compared
+        ));
         match suites.last_mut().filter(|s| s.name.as_str() == entry.target.name()) {
             Some(suite) => {
                 suite.add_test_case(case);
@@ -203,4 +213,22 @@ pub fn junit(entries: &[Entry]) -> Result<String, quick_junit::SerializeError> {
     }
     report.add_test_suites(suites);
     report.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wheatstone_golden::targets::Target;
+
+    #[test]
+    fn one_is_singular() {
+        let counts = [0, 1, 2, 12_345].map(|n| counted(n, "beat"));
+        assert_eq!(counts, ["0 beats", "1 beat", "2 beats", "12,345 beats"]);
+        let mut entry = Entry::new(Target::Display, "random");
+        entry.compared = 1;
+        let text = table(&[entry]);
+        assert!(text.ends_with("1 case, 1 beat and 0 pixels compared, mismatches 0\n"), "{text}");
+        let drawn = Drawn { polygons: 1, ..Drawn::default() };
+        assert!(drawn_line(&drawn).starts_with("1 polygon, 0 derived"));
+    }
 }

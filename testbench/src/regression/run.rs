@@ -3,17 +3,22 @@
 use super::RegressionError;
 use crate::cases::{recorded, Case};
 use crate::memory::Memory;
-use crate::{Bench, Counts, Job, Library, Outcome, Probe, Responder, Stalls, TraceWindow};
+use crate::{
+    Bench, Counts, Difference, Job, Library, Outcome, Probe, Responder, Stalls, TraceWindow,
+};
 use std::time::{Duration, Instant};
 use wheatstone_golden::config::Config;
-use wheatstone_golden::formats::Eye;
-use wheatstone_golden::frame::Frames;
-use wheatstone_golden::interface::{Direction, Interface, Table};
+use wheatstone_golden::formats::{Depth, Eye, Formats, Quantity};
+use wheatstone_golden::frame::{Frame, Frames};
+use wheatstone_golden::interface::{Beat, Direction, Interface, Table};
 use wheatstone_golden::pipeline::Response;
 use wheatstone_golden::primary::{Counts as Drawn, Primary};
 use wheatstone_golden::record::{Recording, Tape};
 use wheatstone_golden::stereo::{pieces, Job as Scene};
 use wheatstone_golden::targets::{probes, Target};
+
+/// Colour and depth in a frame buffer are as wide in all configurations.
+const FORMATS: Formats = Formats::new(&Config::DEFAULT);
 
 /// Beats after which a scene goes on in a new part, so that memory stays bounded.
 const PART: usize = 1 << 17;
@@ -74,12 +79,26 @@ pub enum MemoryFault {
         /// Row.
         y: u32,
         /// Colour and depth of the golden model.
-        expected: ([u8; 3], u32),
+        expected: Response,
         /// Colour and depth of the Verilog.
-        actual: ([u8; 3], u32),
+        actual: Response,
         /// Number of pixels that differ.
         count: u64,
     },
+}
+
+impl MemoryFault {
+    /// The fields that differ.
+    pub fn differences(&self) -> Vec<Difference> {
+        let (Self::Stale { expected, actual, .. } | Self::Pixel { expected, actual, .. }) = self;
+        let fields = Response::fields(&FORMATS);
+        let [expected, actual] = [expected, actual].map(|response| {
+            let mut row = Vec::new();
+            response.write(&mut row);
+            row
+        });
+        Difference::all(&fields, &expected, &actual)
+    }
 }
 
 /// The probes of a system, as the model wants them.
@@ -99,14 +118,14 @@ fn compare_frames(golden: &Frames, actual: &Frames) -> Vec<MemoryFault> {
     let mut faults = Vec::new();
     for eye in Eye::BOTH {
         let [golden, actual] = [golden, actual].map(|f| &f.eyes[eye as usize]);
-        let pixel =
-            |n: usize| ((golden.colour[n], golden.depth[n]), (actual.colour[n], actual.depth[n]));
-        let mut different = (0..golden.colour.len()).filter(|&n| {
-            let (expected, actual) = pixel(n);
-            expected != actual
-        });
+        let held = |frame: &Frame, n: usize| Response {
+            rgb: frame.colour[n],
+            depth: Depth::new(frame.depth[n].into(), &FORMATS),
+        };
+        let pixels = 0..golden.colour.len();
+        let mut different = pixels.filter(|&n| held(golden, n) != held(actual, n));
         if let Some(first) = different.next() {
-            let (expected, actual) = pixel(first);
+            let (expected, actual) = (held(golden, first), held(actual, first));
             let (x, y) = (first as u32 % golden.width, first as u32 / golden.width);
             let count = 1 + different.count() as u64;
             faults.push(MemoryFault::Pixel { eye, x, y, expected, actual, count });

@@ -1,11 +1,11 @@
 //! Waveforms on demand: of random beats, of the beginning of a scene, of a polygon or a pixel.
 
-use super::failure::view;
 use super::run::{model_probes, run_case_watched, Setting};
 use super::RegressionError;
 use crate::cases::{self, Case};
 use crate::settings::Settings;
-use crate::{Builder, Spec, Stalls, TraceWindow};
+use crate::waves::{Dump, View};
+use crate::{Builder, Spec, Stalls};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use wheatstone_golden::formats::Eye;
@@ -142,12 +142,12 @@ pub fn record_waves(
         Some(cycle) => cycle.saturating_sub(AROUND[0])..=cycle + AROUND[1],
         None => 0..=ran.counts.simulated.clamp(64, LONGEST),
     };
-    let file = out.join(format!("{}.fst", target.name()));
-    let window =
-        TraceWindow { path: file.clone(), from_cycle: *cycles.start(), to_cycle: *cycles.end() };
-    setting.trace = Some(window.clone());
+    let dump = Dump::new(cycles.clone())?;
+    setting.trace = Some(dump.window());
     super::run_case(&setting, &case)?;
-    view(&library, &window, marker, "pixel")?;
+    let file = out.join(format!("{}.fst", target.name()));
+    let marked = marker.map(|cycle| (cycle, "pixel"));
+    dump.deliver(&file, &View { interface: &interface, units: &probes, marker: marked })?;
     Ok(Some(Waves { file, cycles, marker }))
 }
 
