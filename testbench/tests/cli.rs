@@ -229,7 +229,7 @@ fn pictures_have_ids_of_the_triangles() {
     let output =
         run(folder.path(), "render --scene s.json --method direct --out p --stereo anaglyph");
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    assert!(said(&output).contains("1 polygon, both views directly"), "{}", said(&output));
+    assert!(said(&output).contains("would draw 1 polygon, 1 derived"), "{}", said(&output));
     for eye in ["left", "right"] {
         let ids =
             image::open(folder.path().join(format!("p/{eye}_ids.png"))).expect("ids").to_rgb8();
@@ -495,4 +495,21 @@ fn a_missing_simulator_is_named_with_its_remedy() {
     let text = said(&output);
     assert_eq!(output.status.code(), Some(3), "{text}");
     assert!(text.contains("verilator") && text.contains("apt"), "{text}");
+}
+
+/// The pictures of a run belong together: none is left of one that showed something else.
+#[test]
+fn pictures_replace_those_of_an_older_run_together() {
+    let folder = folder(&[]);
+    let render = |line: &str| {
+        run(folder.path(), &format!("render --method direct --size 64x48 --out p {line}"))
+    };
+    assert_eq!(render("--scene ramp --stereo anaglyph,parallel").status.code(), Some(0));
+    let older = fs::read(folder.path().join("p/left.png")).expect("a picture");
+    assert_eq!(render("--scene ties --stereo crossed").status.code(), Some(0));
+    assert_ne!(fs::read(folder.path().join("p/left.png")).expect("a picture"), older);
+    let mut names: Vec<String> = files(&folder.path().join("p"));
+    names.sort();
+    let names: Vec<&str> = names.iter().filter_map(|name| name.rsplit('/').next()).collect();
+    assert_eq!(names, ["crossed.png", "left.png", "left_ids.png", "right.png", "right_ids.png"]);
 }

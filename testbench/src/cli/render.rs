@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::regression::drawn_line;
+use crate::scratch::Scratch;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::NO_ID;
 use wheatstone_golden::picture::{
@@ -83,26 +84,67 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
         }
     };
     let pictures = [&frames[0], &frames[1]].map(frame_picture);
+    let mut set = Set::new(&args.out)?;
     for eye in Eye::BOTH {
         let frame = &frames[eye as usize];
-        save(&args.out, &format!("{}.png", eye.name()), &pictures[eye as usize])?;
+        write_png(&set.add(format!("{}.png", eye.name())), &pictures[eye as usize])?;
         let id = |x: u32, y: u32| {
             Some(frame.id[(y * frame.width + x) as usize]).filter(|&id| id != NO_ID)
         };
         let ids = id_picture(frame.width, frame.height, id);
-        save(&args.out, &format!("{}_ids.png", eye.name()), &ids)?;
+        write_png(&set.add(format!("{}_ids.png", eye.name())), &ids)?;
     }
     for composite in &args.stereo {
-        let file = args.out.join(format!("{}.png", composite.name()));
+        let file = set.add(format!("{}.png", composite.name()));
         let free = composite.is_side_by_side().then(|| {
             let far = scene.rig.eye_separation * scene.rig.pixels_per_unit;
             print_resolution(pictures[0].width(), far, EYE_SEPARATION)
         });
         let views = Views { left: &pictures[0], right: &pictures[1] };
         composite.write(&file, &views, args.dpi.or(free))?;
+    }
+    for file in set.finish()? {
         say!("image {}", file.display());
     }
     Ok(OK)
+}
+
+/// Pictures of one run: they appear together when all are written, and replace all of an older run.
+struct Set<'a> {
+    out: &'a Path,
+    scratch: Scratch,
+    names: Vec<String>,
+}
+
+impl Set<'_> {
+    fn new(out: &Path) -> Result<Set<'_>, WriteError> {
+        let scratch = Scratch::new(out);
+        let scratch = scratch.map_err(|source| WriteError { file: out.into(), source })?;
+        Ok(Set { out, scratch, names: Vec::new() })
+    }
+
+    /// Where to write the picture of that name meanwhile.
+    fn add(&mut self, name: String) -> PathBuf {
+        let file = self.scratch.path().join(&name);
+        self.names.push(name);
+        file
+    }
+
+    /// Puts the pictures in their place; composites of an older run show other views and go.
+    fn finish(self) -> Result<Vec<PathBuf>, WriteError> {
+        for composite in Composite::ALL {
+            // Nearly always there is none.
+            let _ = std::fs::remove_file(self.out.join(format!("{}.png", composite.name())));
+        }
+        let place = |name: &String| {
+            let file = self.out.join(name);
+            match std::fs::rename(self.scratch.path().join(name), &file) {
+                Ok(()) => Ok(file),
+                Err(source) => Err(WriteError { file, source }),
+            }
+        };
+        self.names.iter().map(place).collect()
+    }
 }
 
 /// Says what is not drawn.
@@ -114,11 +156,4 @@ fn left_out(geometry: &Geometry) {
     if geometry.polygons.is_empty() {
         tell!("warning: nothing to draw: all of the scene is left out, or there is nothing in it");
     }
-}
-
-fn save(folder: &Path, name: &str, picture: &image::RgbImage) -> Result<(), Failure> {
-    let file = folder.join(name);
-    write_png(&file, picture)?;
-    say!("image {}", file.display());
-    Ok(())
 }
