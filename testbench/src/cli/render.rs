@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::quality::Quality;
-use crate::regression::{counted, drawn_line};
+use crate::regression::drawn_line;
 use wheatstone_golden::formats::{Eye, Rgba};
 use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::picture::{colour_picture, id_picture, write_png, Composite, Views};
