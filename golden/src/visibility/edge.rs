@@ -41,6 +41,7 @@ pub(super) struct Along<T> {
 }
 
 /// First row whose centre line is not above `y`.
+#[inline]
 fn row_below(y: i32, formats: &Formats) -> i32 {
     (y + (1 << (formats.subpixel_bits - 1)) - 1) >> formats.subpixel_bits
 }

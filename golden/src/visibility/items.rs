@@ -26,10 +26,10 @@ impl Items {
         self.item.fill(NO_ITEM);
     }
 
-    /// Part of a row, from column `from` to before `end`.
+    /// A row.
     #[inline]
-    pub(super) fn span(&mut self, row: i32, from: i32, end: i32) -> &mut [u32] {
-        let start = row as usize * self.width as usize;
-        &mut self.item[start + from as usize..start + end as usize]
+    pub fn row(&mut self, row: i32) -> &mut [u32] {
+        let width = self.width as usize;
+        &mut self.item[row as usize * width..(row as usize + 1) * width]
     }
 }

@@ -58,6 +58,11 @@ impl<'a> Surfaces<'a> {
         Ok(Surfaces { opaque, translucent, width, height, formats, background, textures, lookup })
     }
 
+    /// A cleared item buffer.
+    pub fn items(&self) -> Items {
+        Items::new(self.width, self.height)
+    }
+
     /// The frame of an eye that sees these items, coloured as direct rendering does it, with the
     /// translucent polygons drawn over it.
     pub fn frame(&self, items: &Items, eye: Eye) -> Frame {

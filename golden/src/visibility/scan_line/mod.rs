@@ -1,14 +1,13 @@
 //! Scan-line hidden-surface algorithm, for one view or for both at once.
 //!
 //! Adelson et al. 1991, "Scan-line algorithms". All edges are put into buckets by their first row.
-//! A list holds the edges that cross the current row, with their depth there. For each view the
-//! list is sorted by x; between two neighbours the set of polygons that cover the pixels does not
-//! change, and the nearest of them is seen. For both views at once there is one set of buckets and
-//! one list, and what depends on y (rows, depth, colours along edges) is computed once.
+//! A list holds the polygons whose edges cross the current row, with x and depth of the crossings.
+//! On each row their spans are compared pixel by pixel, and the nearest is seen; of equal depths
+//! the polygon that comes first. Polygons may pass through each other: the depths of a row are
+//! kept until its end.
 //!
-//! Polygons may pass through each other. Depth is linear along a row, so a polygon that is nearest
-//! at both ends of an interval is nearest all along it; where different ones are, every pixel is
-//! looked at. Of equal depths the polygon that comes first is seen.
+//! For both views at once there is one set of buckets and one list, and what depends on y alone is
+//! computed once: rows, steps along edges, depth and further values there.
 
 mod row;
 mod table;
@@ -17,31 +16,40 @@ use super::{Items, Surfaces};
 use crate::formats::{Eye, Formats};
 use crate::setup::{Polygon, Vertex};
 use crate::work::{Meter, Real};
-use row::Walk;
-use std::ops::Range;
+use row::Row;
 use table::Table;
+
+pub use row::Seen;
+pub use table::Line;
 
 /// What one eye sees.
 pub fn one<T: Real>(surfaces: &Surfaces, eye: Eye, meter: &mut impl Meter) -> Items {
-    let [items] = items::<T, 1>(surfaces, [eye], meter);
+    let mut items = [surfaces.items()];
+    draw_items::<T, 1>(surfaces, [eye], &mut items, meter);
+    let [items] = items;
     items
 }
 
 /// What both eyes see, in one pass.
 pub fn both<T: Real>(surfaces: &Surfaces, meter: &mut impl Meter) -> [Items; 2] {
-    items::<T, 2>(surfaces, Eye::BOTH, meter)
+    let mut items = Eye::BOTH.map(|_| surfaces.items());
+    draw_items::<T, 2>(surfaces, Eye::BOTH, &mut items, meter);
+    items
 }
 
-fn items<T: Real, const EYES: usize>(
+/// Writes what some eyes see into item buffers of the surfaces' size.
+pub fn draw_items<T: Real, const EYES: usize>(
     surfaces: &Surfaces,
     eyes: [Eye; EYES],
+    items: &mut [Items; EYES],
     meter: &mut impl Meter,
-) -> [Items; EYES] {
+) {
     let Surfaces { width, height, formats, .. } = *surfaces;
-    let mut items = eyes.map(|_| Items::new(width, height));
     let depth = |v: &Vertex| [T::of(f64::from(v.depth))];
-    draw(&surfaces.opaque, eyes, &Area { width, height, formats }, depth, &mut items, meter);
-    items
+    let area = Area { width, height, formats };
+    draw(&surfaces.opaque, eyes, &area, depth, meter, |view, row, seen: Seen<T, EYES, 1>| {
+        items[view].row(row).copy_from_slice(seen.items);
+    });
 }
 
 /// The pixels of a view.
@@ -55,61 +63,25 @@ pub struct Area {
     pub formats: Formats,
 }
 
-/// A value along a row.
-#[derive(Clone, Copy, Debug)]
-pub struct Line<T> {
-    /// At the first pixel.
-    pub first: T,
-    /// Change from pixel to pixel.
-    pub slope: T,
-}
-
-/// What receives the visible parts of rows.
-pub trait Paint<T> {
-    /// `columns` of a row show a polygon. `value` tells the values that are interpolated beside
-    /// depth, counted from 0; all columns lie between the polygon's edges.
-    fn run(
-        &mut self,
-        view: usize,
-        row: i32,
-        columns: Range<i32>,
-        polygon: u32,
-        value: impl Fn(usize) -> Line<T>,
-    );
-}
-
-impl<T: Real, const EYES: usize> Paint<T> for [Items; EYES] {
-    #[inline]
-    fn run(
-        &mut self,
-        view: usize,
-        row: i32,
-        columns: Range<i32>,
-        polygon: u32,
-        _: impl Fn(usize) -> Line<T>,
-    ) {
-        self[view].span(row, columns.start, columns.end).fill(polygon);
-    }
-}
-
 /// Draws convex polygons, those that are wanted in any of these views. `values` gives depth and
-/// whatever else is to be interpolated of a corner, which must not depend on the view.
+/// whatever else is to be interpolated of a corner, which must not depend on the view; `paint`
+/// receives view, row and what is seen there.
 pub fn draw<T: Real, const EYES: usize, const VALUES: usize>(
     polygons: &[Polygon],
     eyes: [Eye; EYES],
     area: &Area,
     values: impl Fn(&Vertex) -> [T; VALUES],
-    paint: &mut impl Paint<T>,
     meter: &mut impl Meter,
+    mut paint: impl FnMut(usize, i32, Seen<T, EYES, VALUES>),
 ) {
     let mut table = Table::new(polygons, eyes, area, values, meter);
-    let mut open = Vec::new();
+    let mut pixels = Row::new(area.width);
     for row in 0..area.height as i32 {
-        let old = table.advance(row, meter);
-        table.enter(row);
+        table.advance(row, meter);
+        table.enter(row, meter);
         for view in 0..EYES {
-            table.sort(view, old, meter);
-            Walk::new(&table, view, row, &mut *paint, &mut *meter).go(area.width as i32, &mut open);
+            pixels.resolve(&table, view, meter);
+            paint(view, row, pixels.seen(&table, view));
         }
     }
 }

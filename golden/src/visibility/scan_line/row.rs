@@ -1,170 +1,114 @@
-//! One row of one view: intervals between edges, and what is seen on each.
+//! The pixels of one row: which polygon is nearest at each.
 
-use super::table::{Entry, Table};
-use super::{Line, Paint};
+use super::table::{Line, Table};
+use crate::visibility::NO_ITEM;
 use crate::work::{Meter, Real};
 use std::ops::Range;
 
-/// A polygon over the current interval.
-pub(super) struct Open<T> {
-    polygon: u32,
-    /// First pixel of its span.
-    start: i32,
-    /// Depth from there on, once it is needed.
-    depth: Option<Line<T>>,
+/// Fraction bits of a depth in a row.
+const FRACTION: u32 = 7;
+
+/// Pixels after which a depth is computed anew: until then the rounding of its slope adds up to a
+/// quarter of a unit at most.
+const STRETCH: i32 = 64;
+
+/// Nearest polygon and its depth at each pixel of a row.
+pub(super) struct Row {
+    items: Vec<u32>,
+    depths: Vec<i32>,
 }
 
-/// A walk along a row.
-pub(super) struct Walk<'a, T, P, M, const EYES: usize, const VALUES: usize> {
-    table: &'a Table<T, EYES, VALUES>,
-    view: usize,
-    row: i32,
-    /// Neighbouring pixels that show one polygon, not yet painted.
-    run: Option<(u32, Range<i32>)>,
-    paint: &'a mut P,
-    meter: &'a mut M,
-}
-
-impl<'a, T: Real, P: Paint<T>, M: Meter, const EYES: usize, const VALUES: usize>
-    Walk<'a, T, P, M, EYES, VALUES>
-{
-    pub fn new(
-        table: &'a Table<T, EYES, VALUES>,
-        view: usize,
-        row: i32,
-        paint: &'a mut P,
-        meter: &'a mut M,
-    ) -> Self {
-        Walk { table, view, row, run: None, paint, meter }
+impl Row {
+    pub fn new(width: u32) -> Row {
+        Row { items: vec![NO_ITEM; width as usize], depths: vec![i32::MAX; width as usize] }
     }
 
-    /// Walks from column 0 to the last one. `open` is room for the polygons on the way.
-    pub fn go(mut self, width: i32, open: &mut Vec<Open<T>>) {
-        open.clear();
-        let mut from = 0;
-        for place in self.table.order(self.view) {
-            let entry = self.table.entry(place.entry);
-            if !entry.seen[self.view] {
+    /// Finds what a view shows of the active polygons.
+    pub fn resolve<T: Real, const EYES: usize, const VALUES: usize>(
+        &mut self,
+        table: &Table<T, EYES, VALUES>,
+        view: usize,
+        meter: &mut impl Meter,
+    ) {
+        self.items.fill(NO_ITEM);
+        self.depths.fill(i32::MAX);
+        for (polygon, span) in table.spans(view) {
+            let columns = span.columns.start.max(0)..span.columns.end.min(self.items.len() as i32);
+            if columns.is_empty() {
                 continue;
             }
-            let end = place.cell.min(width);
-            if from < end {
-                self.interval(open, from..end);
-                from = end;
-            }
-            match open.iter().position(|open| open.polygon == entry.polygon) {
-                Some(k) => {
-                    open.swap_remove(k);
-                }
-                None => {
-                    open.push(Open { polygon: entry.polygon, start: place.cell, depth: None });
-                }
-            }
-        }
-        self.finish();
-    }
-
-    /// Finds what is seen on an interval that some polygons cover.
-    fn interval(&mut self, open: &mut [Open<T>], columns: Range<i32>) {
-        match open {
-            [] => return,
-            [only] => return self.see(only.polygon, columns),
-            _ => {}
-        }
-        for open in open.iter_mut().filter(|open| open.depth.is_none()) {
-            open.depth = Some(self.spread(open.polygon).line(0, open.start));
-        }
-        let [first, last] = [columns.start, columns.end - 1].map(|x| nearest(open, x));
-        self.meter.note(|work| work.depth_tests += 2 * open.len() as u64);
-        if first == last {
-            return self.see(first, columns);
-        }
-        self.meter.note(|work| work.depth_tests += (open.len() * columns.len()) as u64);
-        for x in columns {
-            self.see(nearest(open, x), x..x + 1);
+            meter.note(|work| {
+                work.interpolations += columns.len() as u64;
+                work.depth_tests += columns.len() as u64;
+            });
+            let depth = span.line(0, span.offset(columns.start));
+            self.span(columns, depth, polygon);
         }
     }
 
-    /// Adds an interval to the run before it if it shows the same polygon.
+    /// Compares the depths of a span.
     #[inline]
-    fn see(&mut self, polygon: u32, columns: Range<i32>) {
-        match &mut self.run {
-            Some((before, run)) if *before == polygon && run.end == columns.start => {
-                run.end = columns.end;
-            }
-            _ => {
-                self.finish();
-                self.run = Some((polygon, columns));
-            }
+    fn span<T: Real>(&mut self, columns: Range<i32>, depth: Line<T>, polygon: u32) {
+        const UNIT: f64 = (1 << FRACTION) as f64;
+        let (first, slope) = (depth.first.value() * UNIT, depth.slope.value() * UNIT);
+        let mut start = columns.start;
+        while start < columns.end {
+            let end = columns.end.min(start + STRETCH);
+            let from = (first + slope * f64::from(start - columns.start)) as i32;
+            let stretch = start as usize..end as usize;
+            let (items, depths) = (&mut self.items[stretch.clone()], &mut self.depths[stretch]);
+            compare(items, depths, from, slope as i32, polygon);
+            start = end;
         }
     }
 
-    /// Paints the run.
-    #[inline]
-    fn finish(&mut self) {
-        let Some((polygon, columns)) = self.run.take() else { return };
-        self.meter.note(|work| {
-            work.pixels_written += columns.len() as u64;
-            work.interpolations += ((VALUES - 1) * columns.len()) as u64;
-        });
-        let start = columns.start;
-        if VALUES > 1 {
-            let spread = self.spread(polygon);
-            let value = |k| spread.line(k + 1, start);
-            self.paint.run(self.view, self.row, columns, polygon, value);
-        } else {
-            let nothing = |_| Line { first: T::of(0.0), slope: T::of(0.0) };
-            self.paint.run(self.view, self.row, columns, polygon, nothing);
-        }
-    }
-
-    /// A polygon's span.
-    #[inline]
-    fn spread(&self, polygon: u32) -> Spread<'a, T, EYES, VALUES> {
-        let [left, right] = self.table.sides(polygon, self.view);
-        let [cell, end] = [left, right].map(|entry| entry.edge.x[self.view].cell);
-        let offset = left.edge.offset(self.view);
-        let width = T::of(f64::from(end - cell)) + offset - right.edge.offset(self.view);
-        Spread { left, right, cell, offset, scale: T::of(1.0) / width }
+    /// What was found.
+    pub fn seen<'a, T, const EYES: usize, const VALUES: usize>(
+        &'a self,
+        table: &'a Table<T, EYES, VALUES>,
+        view: usize,
+    ) -> Seen<'a, T, EYES, VALUES> {
+        Seen { items: &self.items, table, view }
     }
 }
 
-/// A polygon's span on a row, from edge to edge.
-struct Spread<'a, T, const EYES: usize, const VALUES: usize> {
-    left: &'a Entry<T, EYES, VALUES>,
-    right: &'a Entry<T, EYES, VALUES>,
-    /// First pixel.
-    cell: i32,
-    /// From the left edge to its centre, in pixels.
-    offset: T,
-    /// One by the width.
-    scale: T,
-}
-
-impl<T: Real, const EYES: usize, const VALUES: usize> Spread<'_, T, EYES, VALUES> {
-    /// A value from pixel `start` on.
-    #[inline]
-    fn line(&self, value: usize, start: i32) -> Line<T> {
-        let [left, right] = [self.left, self.right].map(|entry| entry.values[value]);
-        let slope = (right - left) * self.scale;
-        let away = self.offset + T::of(f64::from(start - self.cell));
-        Line { first: left + slope * away, slope }
-    }
-}
-
-/// The nearest of some polygons at a pixel, the first one of equals.
+/// Keeps the nearer of what is there and a polygon. Both are stored, one of them anew, which
+/// compilers make vector instructions of.
 #[inline]
-fn nearest<T: Real>(open: &[Open<T>], x: i32) -> u32 {
-    let mut best: Option<(T, u32)> = None;
-    for open in open {
-        let Some(Line { first, slope }) = open.depth else { continue };
-        let depth = first + slope * T::of(f64::from(x - open.start));
-        let nearer = best.is_none_or(|(least, polygon)| {
-            depth < least || (depth == least && open.polygon < polygon)
-        });
-        if nearer {
-            best = Some((depth, open.polygon));
+fn compare(items: &mut [u32], depths: &mut [i32], first: i32, slope: i32, polygon: u32) {
+    let mut depth = first;
+    for (item, least) in items.iter_mut().zip(depths) {
+        let nearer = depth < *least;
+        *item = if nearer { polygon } else { *item };
+        *least = if nearer { depth } else { *least };
+        // Steep depths wrap beyond the end of a short span, where nobody looks.
+        depth = depth.wrapping_add(slope);
+    }
+}
+
+/// What a view shows on a row.
+pub struct Seen<'a, T, const EYES: usize, const VALUES: usize> {
+    /// The polygon at each pixel, or [`NO_ITEM`].
+    pub items: &'a [u32],
+    table: &'a Table<T, EYES, VALUES>,
+    view: usize,
+}
+
+impl<T: Real, const EYES: usize, const VALUES: usize> Seen<'_, T, EYES, VALUES> {
+    /// Calls `paint` for each run of pixels that show one polygon, with the values beside depth.
+    pub fn runs<const MORE: usize>(
+        &self,
+        mut paint: impl FnMut(Range<usize>, u32, [Line<T>; MORE]),
+    ) {
+        let mut start = 0;
+        for run in self.items.chunk_by(|a, b| a == b) {
+            let columns = start..start + run.len();
+            start = columns.end;
+            if run[0] != NO_ITEM {
+                let span = self.table.span(run[0], self.view);
+                let offset = span.offset(columns.start as i32);
+                paint(columns, run[0], std::array::from_fn(|k| span.line(k + 1, offset)));
+            }
         }
     }
-    best.map_or(u32::MAX, |(_, polygon)| polygon)
 }

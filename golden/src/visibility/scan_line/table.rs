@@ -1,44 +1,44 @@
-//! The edges of all polygons: buckets by the first row, and the list of the active ones.
+//! The edges of all polygons: buckets by the first row, and those that cross the current row.
 
 use super::Area;
-use crate::formats::Eye;
+use crate::formats::{Eye, Formats};
 use crate::setup::{Polygon, Vertex};
 use crate::visibility::edge::{Along, Edge};
 use crate::work::{Meter, Real};
+use std::ops::Range;
 
 /// No edge, or the end of a bucket.
 const NONE: u32 = u32::MAX;
 
 /// An edge in the table.
-pub(super) struct Entry<T, const EYES: usize, const VALUES: usize> {
-    pub edge: Edge<T, EYES>,
-    pub polygon: u32,
+struct Entry<T, const EYES: usize, const VALUES: usize> {
+    edge: Edge<T, EYES>,
+    polygon: u32,
     /// The next one in the same bucket.
     next: u32,
     /// Depth and further values on the current row.
-    pub values: [T; VALUES],
+    values: [T; VALUES],
     slopes: [T; VALUES],
-    /// Views in which the polygon is to be seen.
-    pub seen: [bool; EYES],
 }
 
-/// An active edge in the order of one view.
-#[derive(Clone, Copy)]
-pub(super) struct Place {
-    pub cell: i32,
-    pub entry: u32,
+/// What is known of a polygon.
+struct Face<T, const EYES: usize, const VALUES: usize> {
+    /// Views in which it is to be seen.
+    seen: [bool; EYES],
+    /// Its two edges that cross the current row.
+    sides: [u32; 2],
+    /// Change of each value from pixel to pixel in each view.
+    slopes: [[T; VALUES]; EYES],
 }
 
+/// Edge table and list of active polygons.
 pub(super) struct Table<T, const EYES: usize, const VALUES: usize> {
     entries: Vec<Entry<T, EYES, VALUES>>,
     /// First entry of the edges that begin on each row.
     buckets: Vec<u32>,
-    /// The two active edges of each polygon.
-    pairs: Vec<[u32; 2]>,
-    /// Active edges by x in each view.
-    order: [Vec<Place>; EYES],
-    /// Room for the edges that begin on a row.
-    fresh: Vec<Place>,
+    faces: Vec<Face<T, EYES, VALUES>>,
+    /// Polygons whose edges cross the current row, in their order.
+    active: Vec<u32>,
 }
 
 impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
@@ -52,33 +52,71 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
         let mut table = Table {
             entries: Vec::with_capacity(3 * polygons.len()),
             buckets: vec![NONE; area.height as usize],
-            pairs: vec![[NONE; 2]; polygons.len()],
-            order: eyes.map(|_| Vec::new()),
-            fresh: Vec::new(),
+            faces: Vec::with_capacity(polygons.len()),
+            active: Vec::new(),
         };
-        for (n, polygon) in polygons.iter().enumerate() {
+        for polygon in polygons {
             let seen = eyes.map(|eye| polygon.eyes.contains(eye));
-            let Some(mut from) = polygon.vertices.last().filter(|_| seen.contains(&true)) else {
-                continue;
+            let slopes = if seen.contains(&true) {
+                meter.note(|work| {
+                    work.polygons += seen.iter().filter(|&&seen| seen).count() as u64;
+                });
+                table.edges(polygon, eyes, &area.formats, &values)
+            } else {
+                [[T::of(0.0); VALUES]; EYES]
             };
-            meter.note(|work| work.polygons += seen.iter().filter(|&&seen| seen).count() as u64);
-            for to in &polygon.vertices {
-                let (upper, lower) = if from.y[0] <= to.y[0] { (from, to) } else { (to, from) };
-                from = to;
-                if let Some(on) = Edge::new(upper, lower, eyes, 0, &area.formats) {
-                    table.insert(on, n as u32, seen, [values(upper), values(lower)]);
-                    meter.note(|work| work.edge_updates += 1);
-                }
-            }
+            table.faces.push(Face { seen, sides: [NONE; 2], slopes });
         }
         table
+    }
+
+    /// Adds the edges of the next polygon; the slopes of its values in each view.
+    ///
+    /// The slope of v along x is the integral of v dy round the polygon by that of x dy. Only the
+    /// latter, the area, depends on the view.
+    fn edges(
+        &mut self,
+        polygon: &Polygon,
+        eyes: [Eye; EYES],
+        formats: &Formats,
+        values: impl Fn(&Vertex) -> [T; VALUES],
+    ) -> [[T; VALUES]; EYES] {
+        let number = self.faces.len() as u32;
+        let mut areas = [T::of(0.0); EYES];
+        let mut moments = [T::of(0.0); VALUES];
+        let real = |n: i32| T::of(f64::from(n));
+        let mut from = &polygon.vertices[polygon.vertices.len() - 1];
+        let mut from_values = values(from);
+        for to in &polygon.vertices {
+            let to_values = values(to);
+            let fall = real(to.y[0] - from.y[0]);
+            for (area, eye) in areas.iter_mut().zip(eyes) {
+                *area += real(from.x[eye as usize] + to.x[eye as usize]) * fall;
+            }
+            for k in 0..VALUES {
+                moments[k] += (from_values[k] + to_values[k]) * fall;
+            }
+            let ends = if from.y[0] <= to.y[0] {
+                [(from, from_values), (to, to_values)]
+            } else {
+                [(to, to_values), (from, from_values)]
+            };
+            if let Some(on) = Edge::new(ends[0].0, ends[1].0, eyes, 0, formats) {
+                self.insert(on, number, ends.map(|(_, values)| values));
+            }
+            (from, from_values) = (to, to_values);
+        }
+        areas.map(|area| {
+            // Without an area there is no pixel either.
+            let scale = T::of(formats.one_pixel() as f64) / area;
+            moments.map(|moment| moment * scale)
+        })
     }
 
     fn insert(
         &mut self,
         (edge, along): (Edge<T, EYES>, Along<T>),
         polygon: u32,
-        seen: [bool; EYES],
         [upper, lower]: [[T; VALUES]; 2],
     ) {
         let Some(bucket) = self.buckets.get_mut(edge.first as usize) else { return };
@@ -86,107 +124,98 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
         let rise: [T; VALUES] = std::array::from_fn(|k| lower[k] - upper[k]);
         let values = std::array::from_fn(|k| upper[k] + rise[k] * along.start);
         let slopes = rise.map(|rise| rise * along.row);
-        self.entries.push(Entry { edge, polygon, next, values, slopes, seen });
+        self.entries.push(Entry { edge, polygon, next, values, slopes });
     }
 
-    /// Drops the active edges that end above a row and takes the others to it; how many these are.
-    pub fn advance(&mut self, row: i32, meter: &mut impl Meter) -> usize {
-        let entries = &mut self.entries;
-        self.order[0].retain_mut(|place| {
-            let entry = &mut entries[place.entry as usize];
-            if entry.edge.end <= row {
-                return false;
+    /// Takes the active edges to a row, and drops polygons that end above it.
+    pub fn advance(&mut self, row: i32, meter: &mut impl Meter) {
+        let Table { entries, faces, active, .. } = self;
+        active.retain(|&polygon| {
+            let mut left = false;
+            for side in faces[polygon as usize].sides {
+                let entry = &mut entries[side as usize];
+                if entry.edge.end <= row {
+                    continue;
+                }
+                left = true;
+                entry.edge.step();
+                for (value, &slope) in entry.values.iter_mut().zip(&entry.slopes) {
+                    *value += slope;
+                }
+                meter.note(|work| {
+                    work.edge_updates += 1;
+                    work.interpolations += (EYES + VALUES) as u64;
+                });
             }
-            entry.edge.step();
-            for (value, &slope) in entry.values.iter_mut().zip(&entry.slopes) {
-                *value += slope;
-            }
-            place.cell = entry.edge.x[0].cell;
-            meter.note(|work| {
-                work.edge_updates += 1;
-                work.interpolations += (EYES + VALUES) as u64;
-            });
-            true
+            left
         });
-        for (view, order) in self.order.iter_mut().enumerate().skip(1) {
-            order.retain_mut(|place| {
-                let edge = &entries[place.entry as usize].edge;
-                place.cell = edge.x[view].cell;
-                edge.end > row
-            });
-        }
-        self.order[0].len()
     }
 
-    /// Adds the edges that begin on a row, behind the active ones.
-    pub fn enter(&mut self, row: i32) {
-        let mut next = self.buckets[row as usize];
-        while let Some(entry) = self.entries.get(next as usize) {
-            let pair = &mut self.pairs[entry.polygon as usize];
-            let first = self.entries.get(pair[0] as usize);
+    /// Adds the edges that begin on a row: in the place of one that has ended, or the first two of
+    /// a polygon.
+    pub fn enter(&mut self, row: i32, meter: &mut impl Meter) {
+        let Table { entries, buckets, faces, active } = self;
+        let mut next = buckets[row as usize];
+        while let Some(entry) = entries.get(next as usize) {
+            let sides = &mut faces[entry.polygon as usize].sides;
+            let first = entries.get(sides[0] as usize);
             let taken = first.is_some_and(|first| first.edge.end > row);
-            pair[usize::from(taken)] = next;
-            for (view, order) in self.order.iter_mut().enumerate() {
-                order.push(Place { cell: entry.edge.x[view].cell, entry: next });
+            sides[usize::from(taken)] = next;
+            if let Err(place) = active.binary_search(&entry.polygon) {
+                active.insert(place, entry.polygon);
             }
+            meter.note(|work| work.edge_updates += 1);
             next = entry.next;
         }
     }
 
-    /// Puts the active edges of a view into the order of x: the `old` first ones were in order on
-    /// the row above.
-    pub fn sort(&mut self, view: usize, old: usize, meter: &mut impl Meter) {
-        let order = &mut self.order[view];
-        insertion_sort(&mut order[..old], meter);
-        insertion_sort(&mut order[old..], meter);
-        // Merged from the end, with the new ones out of the way.
-        self.fresh.clear();
-        self.fresh.extend_from_slice(&order[old..]);
-        let (mut k, mut end) = (old, order.len());
-        while let Some(&fresh) = self.fresh.last() {
-            end -= 1;
-            if k > 0 && order[k - 1].cell > fresh.cell {
-                k -= 1;
-                order[end] = order[k];
-            } else {
-                order[end] = fresh;
-                self.fresh.pop();
-            }
-            meter.note(|work| work.edge_updates += 1);
-        }
+    /// The polygons whose edges cross the current row and that a view is to show, in their order,
+    /// with their spans.
+    pub fn spans(&self, view: usize) -> impl Iterator<Item = (u32, Span<'_, T, EYES, VALUES>)> {
+        let active = self.active.iter().filter(move |&&n| self.faces[n as usize].seen[view]);
+        active.map(move |&polygon| (polygon, self.span(polygon, view)))
     }
 
-    /// The active edges of a view by x.
-    pub fn order(&self, view: usize) -> &[Place] {
-        &self.order[view]
-    }
-
-    pub fn entry(&self, entry: u32) -> &Entry<T, EYES, VALUES> {
-        &self.entries[entry as usize]
-    }
-
-    /// The active edges of a polygon, by x.
+    /// The span of an active polygon on the current row.
     #[inline]
-    pub fn sides(&self, polygon: u32, view: usize) -> [&Entry<T, EYES, VALUES>; 2] {
-        let [a, b] = self.pairs[polygon as usize].map(|n| self.entry(n));
-        if a.edge.x[view].cell > b.edge.x[view].cell {
-            [b, a]
-        } else {
-            [a, b]
-        }
+    pub fn span(&self, polygon: u32, view: usize) -> Span<'_, T, EYES, VALUES> {
+        let face = &self.faces[polygon as usize];
+        let [a, b] = face.sides.map(|side| &self.entries[side as usize]);
+        let [cell, end] = [a, b].map(|side| side.edge.x[view].cell);
+        let (left, columns) = if cell <= end { (a, cell..end) } else { (b, end..cell) };
+        Span { columns, left, view, slopes: &face.slopes[view] }
     }
 }
 
-/// Puts edges that are nearly in the order of x into it.
-fn insertion_sort(order: &mut [Place], meter: &mut impl Meter) {
-    for n in 1..order.len() {
-        let place = order[n];
-        let mut k = n;
-        while k > 0 && order[k - 1].cell > place.cell {
-            order[k] = order[k - 1];
-            k -= 1;
-        }
-        order[k] = place;
-        meter.note(|work| work.edge_updates += (n - k) as u64);
+/// The pixels of a row that a polygon covers.
+pub(super) struct Span<'a, T, const EYES: usize, const VALUES: usize> {
+    /// From the first one to before the last one; they may lie outside the view.
+    pub columns: Range<i32>,
+    left: &'a Entry<T, EYES, VALUES>,
+    view: usize,
+    slopes: &'a [T; VALUES],
+}
+
+impl<T: Real, const EYES: usize, const VALUES: usize> Span<'_, T, EYES, VALUES> {
+    /// From the left edge to the centre of a pixel.
+    #[inline]
+    pub fn offset(&self, column: i32) -> T {
+        self.left.edge.offset(self.view) + T::of(f64::from(column - self.columns.start))
     }
+
+    /// A value from that pixel on.
+    #[inline]
+    pub fn line(&self, value: usize, offset: T) -> Line<T> {
+        let slope = self.slopes[value];
+        Line { first: self.left.values[value] + slope * offset, slope }
+    }
+}
+
+/// A value along a row.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<T> {
+    /// At the first pixel.
+    pub first: T,
+    /// Change from pixel to pixel.
+    pub slope: T,
 }
