@@ -8,7 +8,7 @@ use crate::setup::Vertex;
 use crate::work::Real;
 
 /// Where an edge crosses the current row in one view.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
     /// The first pixel whose centre is not left of the edge.
     pub cell: i32,
@@ -29,6 +29,14 @@ pub(super) struct Edge<T, const EYES: usize> {
     pub x: [Crossing; EYES],
     denominator: i32,
     inverse: T,
+}
+
+impl<const EYES: usize> Edge<f64, EYES> {
+    /// An edge that crosses no row.
+    pub const NONE: Self = {
+        let x = [Crossing { cell: 0, rest: 0, step: 0, step_rest: 0 }; EYES];
+        Edge { first: 0, end: 0, x, denominator: 1, inverse: 1.0 }
+    };
 }
 
 /// Where an edge is on its first row, for what is interpolated along it.

@@ -3,6 +3,7 @@
 //! [`scan_line`] and [`bsp`] resolve the opaque [`Surfaces`] of a job into [`Items`], which say
 //! what polygon each pixel shows. `docs/visibility.md` describes and compares them.
 
+pub mod bsp;
 mod edge;
 mod items;
 pub mod scan_line;

@@ -4,7 +4,7 @@ use super::{Items, NO_ITEM};
 use crate::direct::{depth_at, Direct, Shade};
 use crate::formats::{Eye, Formats};
 use crate::frame::Frame;
-use crate::setup::{Attributes, Polygon};
+use crate::setup::{Attributes, Eyes, Outline, Polygon};
 use crate::stereo::{pieces, Job};
 use crate::texture::{Lookup, Texture};
 use thiserror::Error;
@@ -52,8 +52,8 @@ impl<'a> Surfaces<'a> {
         if let Some(Polygon { id, .. }) = job.polygons.iter().find(tilted) {
             return Err(VisibilityError::Tilted { id: *id });
         }
-        let (opaque, translucent) =
-            pieces(job.polygons).map(|p| p.into_owned()).partition(|p| is_opaque(p, job.textures));
+        let drawn = pieces(job.polygons).filter_map(|p| drawn(p.into_owned()));
+        let (opaque, translucent) = drawn.partition(|p| is_opaque(p, job.textures));
         let Job { width, height, background, textures, lookup, .. } = *job;
         Ok(Surfaces { opaque, translucent, width, height, formats, background, textures, lookup })
     }
@@ -82,6 +82,18 @@ impl<'a> Surfaces<'a> {
         self.translucent.iter().for_each(|polygon| direct.draw(polygon, eye, &mut frame));
         frame
     }
+}
+
+/// A polygon for the eyes that see an area of it, if there are any.
+fn drawn(polygon: Polygon) -> Option<Polygon> {
+    let sees = |eye| polygon.eyes.contains(eye) && Outline::new(&polygon, eye).doubled_area() != 0;
+    let eyes = match Eye::BOTH.map(sees) {
+        [true, true] => Eyes::Both,
+        [true, false] => Eyes::One(Eye::Left),
+        [false, true] => Eyes::One(Eye::Right),
+        [false, false] => return None,
+    };
+    Some(Polygon { eyes, ..polygon })
 }
 
 /// Whether nothing shows through a polygon.

@@ -16,7 +16,7 @@ use super::{Items, Surfaces};
 use crate::formats::{Eye, Formats};
 use crate::setup::{Polygon, Vertex};
 use crate::work::{Meter, Real};
-use row::Row;
+use row::Depths;
 use table::Table;
 
 pub use row::Seen;
@@ -44,44 +44,35 @@ pub fn draw_items<T: Real, const EYES: usize>(
     items: &mut [Items; EYES],
     meter: &mut impl Meter,
 ) {
-    let Surfaces { width, height, formats, .. } = *surfaces;
     let depth = |v: &Vertex| [T::of(f64::from(v.depth))];
-    let area = Area { width, height, formats };
-    draw(&surfaces.opaque, eyes, &area, depth, meter, |view, row, seen: Seen<T, EYES, 1>| {
-        items[view].row(row).copy_from_slice(seen.items);
-    });
+    let nothing = |_: Seen<T, EYES, 1>| ();
+    draw(&surfaces.opaque, eyes, &surfaces.formats, depth, items, meter, nothing);
 }
 
-/// The pixels of a view.
-#[derive(Clone, Copy, Debug)]
-pub struct Area {
-    /// Columns.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Widths of coordinates.
-    pub formats: Formats,
-}
-
-/// Draws convex polygons, those that are wanted in any of these views. `values` gives depth and
-/// whatever else is to be interpolated of a corner, which must not depend on the view; `paint`
-/// receives view, row and what is seen there.
+/// Draws convex polygons, those that are wanted in any of these views, into item buffers of one
+/// size.
+///
+/// `values` gives depth and whatever else is to be interpolated of a corner, which must not depend
+/// on the view; `paint` is told what is seen on each row of each view.
 pub fn draw<T: Real, const EYES: usize, const VALUES: usize>(
     polygons: &[Polygon],
     eyes: [Eye; EYES],
-    area: &Area,
+    formats: &Formats,
     values: impl Fn(&Vertex) -> [T; VALUES],
+    items: &mut [Items; EYES],
     meter: &mut impl Meter,
-    mut paint: impl FnMut(usize, i32, Seen<T, EYES, VALUES>),
+    mut paint: impl FnMut(Seen<T, EYES, VALUES>),
 ) {
-    let mut table = Table::new(polygons, eyes, area, values, meter);
-    let mut pixels = Row::new(area.width);
-    for row in 0..area.height as i32 {
+    let Items { width, height, .. } = items[0];
+    let mut table = Table::new(polygons, eyes, height, formats, values, meter);
+    let mut depths = Depths::new(width);
+    for row in 0..height as i32 {
         table.advance(row, meter);
         table.enter(row, meter);
-        for view in 0..EYES {
-            pixels.resolve(&table, view, meter);
-            paint(view, row, pixels.seen(&table, view));
+        for (view, items) in items.iter_mut().enumerate() {
+            let items = items.row(row);
+            depths.resolve(&table, view, items, meter);
+            paint(Seen { view, row, items, table: &table });
         }
     }
 }

@@ -12,15 +12,12 @@ const FRACTION: u32 = 7;
 /// quarter of a unit at most.
 const STRETCH: i32 = 64;
 
-/// Nearest polygon and its depth at each pixel of a row.
-pub(super) struct Row {
-    items: Vec<u32>,
-    depths: Vec<i32>,
-}
+/// The depths of the nearest polygons of a row.
+pub(super) struct Depths(Vec<i32>);
 
-impl Row {
-    pub fn new(width: u32) -> Row {
-        Row { items: vec![NO_ITEM; width as usize], depths: vec![i32::MAX; width as usize] }
+impl Depths {
+    pub fn new(width: u32) -> Depths {
+        Depths(vec![i32::MAX; width as usize])
     }
 
     /// Finds what a view shows of the active polygons.
@@ -28,12 +25,13 @@ impl Row {
         &mut self,
         table: &Table<T, EYES, VALUES>,
         view: usize,
+        items: &mut [u32],
         meter: &mut impl Meter,
     ) {
-        self.items.fill(NO_ITEM);
-        self.depths.fill(i32::MAX);
+        items.fill(NO_ITEM);
+        self.0.fill(i32::MAX);
         for (polygon, span) in table.spans(view) {
-            let columns = span.columns.start.max(0)..span.columns.end.min(self.items.len() as i32);
+            let columns = span.columns.start.max(0)..span.columns.end.min(items.len() as i32);
             if columns.is_empty() {
                 continue;
             }
@@ -42,13 +40,19 @@ impl Row {
                 work.depth_tests += columns.len() as u64;
             });
             let depth = span.line(0, span.offset(columns.start));
-            self.span(columns, depth, polygon);
+            self.span(items, columns, depth, polygon);
         }
     }
 
     /// Compares the depths of a span.
     #[inline]
-    fn span<T: Real>(&mut self, columns: Range<i32>, depth: Line<T>, polygon: u32) {
+    fn span<T: Real>(
+        &mut self,
+        items: &mut [u32],
+        columns: Range<i32>,
+        depth: Line<T>,
+        polygon: u32,
+    ) {
         const UNIT: f64 = (1 << FRACTION) as f64;
         let (first, slope) = (depth.first.value() * UNIT, depth.slope.value() * UNIT);
         let mut start = columns.start;
@@ -56,19 +60,10 @@ impl Row {
             let end = columns.end.min(start + STRETCH);
             let from = (first + slope * f64::from(start - columns.start)) as i32;
             let stretch = start as usize..end as usize;
-            let (items, depths) = (&mut self.items[stretch.clone()], &mut self.depths[stretch]);
-            compare(items, depths, from, slope as i32, polygon);
+            let depths = &mut self.0[stretch.clone()];
+            compare(&mut items[stretch], depths, from, slope as i32, polygon);
             start = end;
         }
-    }
-
-    /// What was found.
-    pub fn seen<'a, T, const EYES: usize, const VALUES: usize>(
-        &'a self,
-        table: &'a Table<T, EYES, VALUES>,
-        view: usize,
-    ) -> Seen<'a, T, EYES, VALUES> {
-        Seen { items: &self.items, table, view }
     }
 }
 
@@ -88,10 +83,13 @@ fn compare(items: &mut [u32], depths: &mut [i32], first: i32, slope: i32, polygo
 
 /// What a view shows on a row.
 pub struct Seen<'a, T, const EYES: usize, const VALUES: usize> {
+    /// The view, counted from 0.
+    pub view: usize,
+    /// The row.
+    pub row: i32,
     /// The polygon at each pixel, or [`NO_ITEM`].
     pub items: &'a [u32],
-    table: &'a Table<T, EYES, VALUES>,
-    view: usize,
+    pub(super) table: &'a Table<T, EYES, VALUES>,
 }
 
 impl<T: Real, const EYES: usize, const VALUES: usize> Seen<'_, T, EYES, VALUES> {

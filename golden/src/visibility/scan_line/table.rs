@@ -1,6 +1,5 @@
 //! The edges of all polygons: buckets by the first row, and those that cross the current row.
 
-use super::Area;
 use crate::formats::{Eye, Formats};
 use crate::setup::{Polygon, Vertex};
 use crate::visibility::edge::{Along, Edge};
@@ -45,13 +44,14 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
     pub fn new(
         polygons: &[Polygon],
         eyes: [Eye; EYES],
-        area: &Area,
+        height: u32,
+        formats: &Formats,
         values: impl Fn(&Vertex) -> [T; VALUES],
         meter: &mut impl Meter,
     ) -> Self {
         let mut table = Table {
             entries: Vec::with_capacity(3 * polygons.len()),
-            buckets: vec![NONE; area.height as usize],
+            buckets: vec![NONE; height as usize],
             faces: Vec::with_capacity(polygons.len()),
             active: Vec::new(),
         };
@@ -61,7 +61,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
                 meter.note(|work| {
                     work.polygons += seen.iter().filter(|&&seen| seen).count() as u64;
                 });
-                table.edges(polygon, eyes, &area.formats, &values)
+                table.edges(polygon, eyes, formats, &values)
             } else {
                 [[T::of(0.0); VALUES]; EYES]
             };
@@ -161,8 +161,11 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
             let first = entries.get(sides[0] as usize);
             let taken = first.is_some_and(|first| first.edge.end > row);
             sides[usize::from(taken)] = next;
-            if let Err(place) = active.binary_search(&entry.polygon) {
-                active.insert(place, entry.polygon);
+            if !taken {
+                // Still in the list if its other edge goes on.
+                if let Err(place) = active.binary_search(&entry.polygon) {
+                    active.insert(place, entry.polygon);
+                }
             }
             meter.note(|work| work.edge_updates += 1);
             next = entry.next;

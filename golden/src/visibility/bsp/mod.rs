@@ -1,0 +1,76 @@
+//! Binary space partition: painting from back to front, for one view or for both at once.
+//!
+//! Adelson et al. 1991, "Combining Z-Buffers and BSP-trees". The plane of each node's polygon
+//! divides the polygons below it. An eye paints what is on the far side of it, the polygon, and
+//! what is on the near side. The order for the other eye differs only below planes that the eyes
+//! are on different sides of. So one traversal, in the right eye's order, paints both views: the
+//! right one by order alone, the left one by order too, but below such planes by a z-buffer.
+//!
+//! The tree is made of what is drawn: polygons in screen space, their corners snapped, in which an
+//! eye is infinitely far before the screen and on the far side of a plane whose depth grows. Which
+//! side of a plane a polygon is on must hold in both views, each in its own integers; a polygon
+//! of which it does not is cut in one view or in both. No rounding decides what hides what.
+
+mod build;
+mod paint;
+mod piece;
+mod plane;
+mod scan;
+
+use super::Surfaces;
+use build::Builder;
+use piece::Region;
+use std::cmp::Ordering;
+
+pub use paint::{both, draw, one, ZBuffer};
+
+/// No node, or no polygon.
+const NONE: u32 = u32::MAX;
+
+/// A tree of the opaque polygons of [`Surfaces`].
+#[derive(Clone, Debug)]
+pub struct Tree {
+    /// The root comes first.
+    nodes: Vec<Node>,
+}
+
+#[derive(Clone, Debug)]
+struct Node {
+    /// The polygon whose plane divides the rest, and what each eye sees of this piece of it.
+    /// Without a polygon, `sides` are what the left and what the right eye sees.
+    polygon: u32,
+    views: [Option<Region>; 2],
+    /// The far side for each eye: `Greater` for the positive one. `Equal` if there is none, or if
+    /// the eye sees nothing below this node.
+    far: [Ordering; 2],
+    /// Nodes on the negative and the positive side.
+    sides: [u32; 2],
+}
+
+impl Tree {
+    /// Builds the tree.
+    ///
+    /// The root of each cell is, of up to 8 evenly spaced polygons, the one that cuts fewest of a
+    /// sample of 48 others and divides them most evenly; planes that pass between the eyes come
+    /// last.
+    pub fn new(surfaces: &Surfaces) -> Tree {
+        Builder::new(surfaces).build()
+    }
+
+    /// Pieces that the polygons were cut into.
+    pub fn pieces(&self) -> usize {
+        self.nodes.iter().filter(|node| node.polygon != NONE).count()
+    }
+
+    /// Nodes whose plane passes between the eyes.
+    pub fn contested(&self) -> usize {
+        self.nodes.iter().filter(|node| node.is_contested()).count()
+    }
+}
+
+impl Node {
+    /// Whether the eyes are on different sides of the plane.
+    fn is_contested(&self) -> bool {
+        self.far[0] != self.far[1] && self.far.iter().all(|&far| far != Ordering::Equal)
+    }
+}
