@@ -37,12 +37,17 @@ pub fn job(polygons: &[Polygon], size: [u32; 2]) -> Job<'_> {
     }
 }
 
-/// Random triangles of all classes, which pass through each other, numbered in order.
+/// Random triangles of all classes, which pass through each other, numbered in order; the eyes see
+/// every fourth one from different sides.
 pub fn random_triangles(seed: u64, count: usize, size: [u32; 2]) -> Vec<Polygon> {
     let formats = Formats::new(&Config::DEFAULT);
     let mut triangles = Triangles::new(seed, formats, size[0], size[1]);
     let mut polygon = |n: usize| {
-        let polygon = triangles.triangle(Class::ALL[n % Class::ALL.len()]);
+        let mut polygon = triangles.triangle(Class::ALL[n % Class::ALL.len()]);
+        if n % 4 == 0 {
+            let middle = polygon.vertices[0].x[0] + 300;
+            polygon.vertices.iter_mut().for_each(|v| v.x[1] = 2 * middle - v.x[0]);
+        }
         Polygon { id: n as u32, ..polygon }
     };
     (0..count).map(&mut polygon).collect()

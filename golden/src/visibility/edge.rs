@@ -1,42 +1,32 @@
 //! Edges followed from scan line to scan line, for one view or for two that share their rows.
 //!
-//! Which pixels lie right of an edge is decided in integers, so that coverage is that of the
-//! half-open rule of [`crate::direct`] whatever is interpolated along the edge.
+//! Coverage is that of the half-open rule of [`crate::direct`], although x is stepped in fixed
+//! point. In pixels, x at the centre line of a row is a fraction whose denominator, the edge's
+//! height in subpixels times the subpixels of a pixel, is at most 2^28. So it either is at a
+//! pixel's centre or at least 2^-28 away from it. With 42 fraction bits the errors of start and
+//! slope add up to less than 2^-30 over 2048 rows, and half-way between there is the decision.
 
 use crate::formats::{Eye, Formats};
 use crate::setup::Vertex;
 use crate::work::Real;
 
-/// Where an edge crosses the current row in one view.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Crossing {
-    /// The first pixel whose centre is not left of the edge.
-    pub cell: i32,
-    /// From the edge to that centre, in pixels times [`Edge::denominator`].
-    rest: i32,
-    step: i32,
-    step_rest: i32,
-}
+/// Fraction bits of x.
+const FRACTION: u32 = 42;
+/// One pixel.
+const ONE: i64 = 1 << FRACTION;
+/// Half the least distance of an edge from a centre that it does not pass through.
+const MARGIN: i64 = 1 << (FRACTION - 29);
 
 /// An edge between two corners on the rows whose centre lines it crosses.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Edge<T, const EYES: usize> {
+pub(super) struct Edge<const EYES: usize> {
     /// The first row.
     pub first: i32,
     /// The row after the last one.
     pub end: i32,
-    /// Where it crosses the current row in each view.
-    pub x: [Crossing; EYES],
-    denominator: i32,
-    inverse: T,
-}
-
-impl<const EYES: usize> Edge<f64, EYES> {
-    /// An edge that crosses no row.
-    pub const NONE: Self = {
-        let x = [Crossing { cell: 0, rest: 0, step: 0, step_rest: 0 }; EYES];
-        Edge { first: 0, end: 0, x, denominator: 1, inverse: 1.0 }
-    };
+    /// In each view, x on the current row, counted from the centre of pixel 0, less [`MARGIN`].
+    x: [i64; EYES],
+    slope: [i64; EYES],
 }
 
 /// Where an edge is on its first row, for what is interpolated along it.
@@ -54,82 +44,64 @@ fn row_below(y: i32, formats: &Formats) -> i32 {
     (y + (1 << (formats.subpixel_bits - 1)) - 1) >> formats.subpixel_bits
 }
 
-impl<T: Real, const EYES: usize> Edge<T, EYES> {
+impl<const EYES: usize> Edge<EYES> {
     /// The edge from an upper to a lower corner, on its first row from row `top` on; none if it
     /// crosses no row there. What the views share is computed once.
-    pub fn new(
+    #[inline]
+    pub fn new<T: Real>(
         upper: &Vertex,
         lower: &Vertex,
         eyes: [Eye; EYES],
         top: i32,
         formats: &Formats,
-    ) -> Option<(Edge<T, EYES>, Along<T>)> {
+    ) -> Option<(Edge<EYES>, Along<T>)> {
         let first = row_below(upper.y[0], formats).max(top);
         let end = row_below(lower.y[0], formats);
         if first >= end {
             return None;
         }
         let bits = formats.subpixel_bits;
+        let half = 1 << (bits - 1);
         let rise = lower.y[0] - upper.y[0];
-        let down = (first << bits) + (1 << (bits - 1)) - upper.y[0];
-        let inverse_rise = T::of(1.0) / T::of(f64::from(rise));
-        // A power of two less: exact.
-        let inverse = T::of(inverse_rise.value() / f64::from(1 << bits));
-        let denominator = rise << bits;
-        let x = eyes.map(|eye| {
+        let down = (first << bits) + half - upper.y[0];
+        let inverse = T::of(1.0) / T::of(f64::from(rise));
+        // The part of the way is exact, or off by less than 2^-52.
+        let row_scale = inverse.value() * ONE as f64;
+        let scale = row_scale / f64::from(1 << bits);
+        let (mut x, mut slope) = ([0; EYES], [0; EYES]);
+        for (view, eye) in eyes.into_iter().enumerate() {
             let (from, to) = (upper.x[eye as usize], lower.x[eye as usize]);
             let run = i64::from(to - from);
-            let divide = |n: i64| divide(n, denominator.into(), inverse.value());
-            let half = 1 << (bits - 1);
-            // ceil((x - 1/2)) is minus the floor of its negative.
-            let (below, rest) =
-                divide(i64::from(half - from) * i64::from(rise) - run * i64::from(down));
-            let (step, step_rest) = divide(run << bits);
-            Crossing {
-                cell: -below as i32,
-                rest: rest as i32,
-                step: step as i32,
-                step_rest: step_rest as i32,
-            }
-        });
+            let travel = i64::from(from - half) * i64::from(rise) + run * i64::from(down);
+            x[view] = (travel as f64 * scale) as i64 - MARGIN;
+            slope[view] = (run as f64 * row_scale) as i64;
+        }
         let along = Along {
-            start: T::of(f64::from(down)) * inverse_rise,
-            row: T::of(f64::from(1 << bits) * inverse_rise.value()),
+            start: T::of(f64::from(down)) * inverse,
+            row: T::of(f64::from(1 << bits) * inverse.value()),
         };
-        Some((Edge { first, end, x, denominator, inverse }, along))
+        Some((Edge { first, end, x, slope }, along))
     }
 
     /// Goes to the next row.
     #[inline]
     pub fn step(&mut self) {
-        for x in &mut self.x {
-            x.cell += x.step;
-            x.rest -= x.step_rest;
-            // All ones if the next pixel's centre has been passed.
-            let passed = x.rest >> 31;
-            x.rest += self.denominator & passed;
-            x.cell -= passed;
+        for (x, slope) in self.x.iter_mut().zip(self.slope) {
+            *x += slope;
         }
     }
 
-    /// Distance from the edge to the centre of [`Crossing::cell`] in a view, in pixels.
+    /// The first pixel in a view whose centre is not left of the edge.
     #[inline]
-    pub fn offset(&self, view: usize) -> T {
-        T::of(f64::from(self.x[view].rest)) * self.inverse
+    pub fn cell(&self, view: usize) -> i32 {
+        (self.x[view] >> FRACTION) as i32 + 1
     }
-}
 
-/// Floor and rest of n/d, with 1/d known to the precision of a double. Quotients are below 2^22
-/// and d below 2^30, so that the product is on the right side of every whole number but the exact
-/// quotient, which the correction covers.
-#[inline]
-fn divide(n: i64, d: i64, inverse: f64) -> (i64, i64) {
-    let quotient = (n as f64 * inverse) as i64;
-    let rest = n - quotient * d;
-    match rest {
-        _ if rest < 0 => (quotient - 1, rest + d),
-        _ if rest >= d => (quotient + 1, rest - d),
-        _ => (quotient, rest),
+    /// Distance in a view from the edge to the centre of a pixel, in pixels, to 2^-29.
+    #[inline]
+    pub fn offset<T: Real>(&self, view: usize, column: i32) -> T {
+        let distance = (i64::from(column) << FRACTION) - (self.x[view] + MARGIN);
+        T::of(distance as f64 * (1.0 / ONE as f64))
     }
 }
 
@@ -138,61 +110,77 @@ mod tests {
     use super::*;
     use crate::config::Config;
 
-    #[test]
-    fn quotients_are_exact() {
-        let mut random = fastrand::Rng::with_seed(3);
-        for _ in 0..1_000_000 {
-            let d = random.i64(1..1 << random.u32(1..30));
-            let n = if random.bool() {
-                random.i64(-1 << 20..1 << 20) * d
-            } else {
-                random.i64(-1 << 43..1 << 43)
-            };
-            if (n / d).abs() < 1 << 22 {
-                let n = n + random.i64(-1..=1);
-                assert_eq!(divide(n, d, 1.0 / d as f64), (n.div_euclid(d), n.rem_euclid(d)));
-            }
-        }
-    }
-
     /// Against the definition: x on each centre line as a fraction.
     #[test]
     fn crossings_are_exact() {
         let formats = Formats::new(&Config::DEFAULT);
         let mut random = fastrand::Rng::with_seed(4);
-        for _ in 0..20_000 {
-            let mut vertex = |half: bool| {
-                let mut n =
-                    || if half { 128 * random.i32(-40..400) } else { random.i32(-5000..50_000) };
-                let y = n();
-                Vertex { x: [n(), n()], y: [y; 2], ..Vertex::default() }
+        let mut on_centres = 0;
+        for n in 0..30_000 {
+            // Halves of pixels, anywhere near, and as far as coordinates go.
+            let mut coordinate = || match n % 3 {
+                0 => 128 * random.i32(-40..400),
+                1 => random.i32(-5_000..50_000),
+                _ => random.i32(-(1 << 18)..3 << 18),
             };
-            let half = vertex(false).x[0] % 2 == 0;
-            let (a, b) = (vertex(half), vertex(half));
+            let mut vertex = || {
+                let y = coordinate();
+                Vertex { x: [coordinate(), coordinate()], y: [y; 2], ..Vertex::default() }
+            };
+            let (a, b) = (vertex(), vertex());
             let (upper, lower) = if a.y[0] <= b.y[0] { (a, b) } else { (b, a) };
-            let Some((mut edge, along)) =
-                Edge::<f64, 2>::new(&upper, &lower, Eye::BOTH, 0, &formats)
-            else {
-                continue;
-            };
+            let made = Edge::<2>::new::<f64>(&upper, &lower, Eye::BOTH, 0, &formats);
+            let Some((mut edge, along)) = made else { continue };
             let rise = i64::from(lower.y[0] - upper.y[0]);
-            for row in edge.first..edge.end {
+            for row in edge.first..edge.end.min(2048) {
                 let line = i64::from(256 * row + 128);
                 assert!(i64::from(upper.y[0]) <= line && line < i64::from(lower.y[0]));
                 for eye in [0, 1] {
                     let run = i64::from(lower.x[eye] - upper.x[eye]);
-                    // x·rise, and the centre of the cell.
+                    // x·rise, and the same of the centre of the cell.
                     let x = i64::from(upper.x[eye]) * rise + run * (line - i64::from(upper.y[0]));
-                    let centre = i64::from(256 * edge.x[eye].cell + 128) * rise;
-                    assert!(x <= centre && centre - 256 * rise < x);
+                    let cell = edge.cell(eye);
+                    let centre = (256 * i64::from(cell) + 128) * rise;
+                    assert!(x <= centre && centre - 256 * rise < x, "{upper:?} {lower:?} {row}");
+                    on_centres += i32::from(x == centre);
                     let offset = (centre - x) as f64 / (256 * rise) as f64;
-                    assert!((edge.offset(eye) - offset).abs() < 1e-12);
+                    assert!((edge.offset::<f64>(eye, cell) - offset).abs() < 1e-8);
                 }
                 let part = (line - i64::from(upper.y[0])) as f64 / rise as f64;
-                assert!(
-                    (along.start + along.row * f64::from(row - edge.first) - part).abs() < 1e-12
-                );
+                let along = along.start + along.row * f64::from(row - edge.first);
+                assert!((along - part).abs() < 1e-12);
                 edge.step();
+            }
+        }
+        assert!(on_centres > 1000, "only {on_centres} crossings at centres");
+    }
+
+    /// Crossings as near to a centre as they can be without being there.
+    #[test]
+    fn near_misses_are_told_apart() {
+        let formats = Formats::new(&Config::DEFAULT);
+        let rise = (4096 * 256) - 1;
+        for run in [1, 2, rise - 1, rise + 1, -1] {
+            for start in -3..=3 {
+                let upper =
+                    Vertex { x: [128 + start, 128], y: [-1024 * 256; 2], ..Vertex::default() };
+                let lower = Vertex {
+                    x: [128 + start + run, 128 + run],
+                    y: [upper.y[0] + rise; 2],
+                    ..Vertex::default()
+                };
+                let made = Edge::<2>::new::<f64>(&upper, &lower, Eye::BOTH, 0, &formats);
+                let (mut edge, _) = made.expect("it crosses rows");
+                for row in 0..2048 {
+                    let down = i64::from(256 * row + 128 - upper.y[0]);
+                    for eye in [0, 1] {
+                        let x =
+                            i64::from(upper.x[eye] - 128) * i64::from(rise) + i64::from(run) * down;
+                        let cell = -((-x).div_euclid(256 * i64::from(rise)));
+                        assert_eq!(i64::from(edge.cell(eye)), cell, "{run} {start} {row}");
+                    }
+                    edge.step();
+                }
             }
         }
     }

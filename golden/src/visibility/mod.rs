@@ -4,6 +4,7 @@
 //! what polygon each pixel shows. `docs/visibility.md` describes and compares them.
 
 pub mod bsp;
+mod depths;
 mod edge;
 mod items;
 pub mod scan_line;

@@ -2,18 +2,18 @@
 
 use super::piece::{Piece, Region, Window};
 use super::plane::{Plane, Side};
-use super::{Node, Tree, NONE};
+use super::{Node, Part, Tree, NONE};
 use crate::formats::Eye;
-use crate::setup::Polygon;
+use crate::setup::{Attributes, Polygon};
 use crate::visibility::Surfaces;
 use std::cmp::Ordering;
 
 /// Polygons of a cell that are tried as its root.
-const CANDIDATES: usize = 8;
+const CANDIDATES: usize = 16;
 /// Polygons that each of them is tried against.
 const SAMPLES: usize = 48;
 /// A polygon cut counts as much as this many that are on one side too many.
-const COST_OF_CUT: usize = 8;
+const COST_OF_CUT: usize = 16;
 
 pub(super) struct Builder<'a> {
     polygons: &'a [Polygon],
@@ -61,6 +61,7 @@ impl<'a> Builder<'a> {
                     .map(|(side, pieces)| Cell { pieces, parent: Some((number, side)) }),
             );
         }
+        self.contest();
         Tree { nodes: self.nodes }
     }
 
@@ -73,6 +74,8 @@ impl<'a> Builder<'a> {
                 polygon: NONE,
                 views: [None, None],
                 far: [Ordering::Equal; 2],
+                contested: None,
+                depth: None,
                 sides: [NONE; 2],
             };
             self.nodes.push(node);
@@ -84,10 +87,17 @@ impl<'a> Builder<'a> {
             Some(plane) if present[view] => plane.far_side(),
             _ => Ordering::Equal,
         });
-        self.nodes.push(Node { polygon, views, far, sides: [NONE; 2] });
+        self.nodes.push(Node {
+            polygon,
+            views,
+            far,
+            contested: None,
+            depth: None,
+            sides: [NONE; 2],
+        });
         let mut sides = [Vec::new(), Vec::new()];
         for piece in pieces {
-            let parts = self.cut(piece, &planes);
+            let parts = self.cut(piece, polygon);
             for (side, part) in sides.iter_mut().zip(parts) {
                 side.extend(part);
             }
@@ -95,11 +105,47 @@ impl<'a> Builder<'a> {
         sides
     }
 
-    /// The parts of a piece on the negative and the positive side of a plane.
-    fn cut(&self, piece: Piece, planes: &[Option<Plane>; 2]) -> [Option<Piece>; 2] {
+    /// Finds the planes below which the order for the left eye may be another, and prepares for
+    /// depth to decide there. Nodes come before those below them.
+    fn contest(&mut self) {
+        let mut parts: Vec<Option<Part>> = vec![None; self.nodes.len()];
+        for n in (0..self.nodes.len()).rev() {
+            let node = &mut self.nodes[n];
+            let own = node.views[0]
+                .as_ref()
+                .map(|region| self.windows[0].part(&self.polygons[node.polygon as usize], region));
+            let [low, high] = node.sides.map(|side| parts.get(side as usize).cloned().flatten());
+            let both = |a: &Option<Part>, b: &Option<Part>| match (a, b) {
+                (Some(a), Some(b)) => a.meets(b),
+                _ => false,
+            };
+            let meet = both(&low, &high) || both(&low, &own) || both(&high, &own);
+            let part = [low, high, own].into_iter().flatten().reduce(|a, b| a.with(&b));
+            let [left, right] = node.far;
+            if meet && left == right.reverse() && left.is_ne() {
+                node.contested = part.clone();
+            }
+            parts[n] = part;
+        }
+        let mut below = vec![false; self.nodes.len()];
+        for n in 0..self.nodes.len() {
+            let node = &mut self.nodes[n];
+            below[n] |= node.contested.is_some();
+            if below[n] && node.views[0].is_some() {
+                let polygon = &self.polygons[node.polygon as usize];
+                node.depth = Some(Attributes::depth(polygon, Eye::Left, &self.windows[0].formats));
+            }
+            for side in node.sides.into_iter().filter(|&side| side != NONE) {
+                below[side as usize] = below[n];
+            }
+        }
+    }
+
+    /// The parts of a piece on the negative and the positive side of a polygon's plane.
+    fn cut(&self, piece: Piece, root: u32) -> [Option<Piece>; 2] {
+        let planes = &self.planes[root as usize];
         let polygon = &self.polygons[piece.polygon as usize];
         let mut views: [[Option<Region>; 2]; 2] = Default::default();
-        let mut undecided = [None, None];
         for (view, region) in piece.views.into_iter().enumerate() {
             let (Some(region), Some(side)) = (region, self.side(piece.polygon, view, planes))
             else {
@@ -109,14 +155,12 @@ impl<'a> Builder<'a> {
                 [true, true] => views[view] = self.windows[view].cut(polygon, &region, &side),
                 [true, false] => views[view][0] = Some(region),
                 [false, true] => views[view][1] = Some(region),
-                // In the plane: wherever the other view is, so that it stays whole.
-                [false, false] => undecided[view] = Some(region),
-            }
-        }
-        for (view, region) in undecided.into_iter().enumerate() {
-            if region.is_some() {
-                let positive = views[1 - view][0].is_none() && views[1 - view][1].is_some();
-                views[view][usize::from(positive)] = region;
+                // In the plane: of equal depths the polygon that comes first is seen.
+                [false, false] => {
+                    let positive_is_far = planes[view].is_some_and(|p| p.far_side().is_gt());
+                    let far = piece.polygon > root;
+                    views[view][usize::from(positive_is_far == far)] = Some(region);
+                }
             }
         }
         let [[left_low, left_high], [right_low, right_high]] = views;

@@ -18,9 +18,11 @@ mod plane;
 mod scan;
 
 use super::Surfaces;
+use crate::setup::Linear;
 use build::Builder;
 use piece::Region;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 pub use paint::{both, draw, one, ZBuffer};
 
@@ -40,11 +42,37 @@ struct Node {
     /// Without a polygon, `sides` are what the left and what the right eye sees.
     polygon: u32,
     views: [Option<Region>; 2],
+    /// If the eyes are on different sides of the plane, and the left one sees things here that may
+    /// hide each other: the part of its view that they lie in.
+    contested: Option<Part>,
+    /// Depth of the polygon for the left eye, if this node is contested or one above it.
+    depth: Option<Linear>,
     /// The far side for each eye: `Greater` for the positive one. `Equal` if there is none, or if
     /// the eye sees nothing below this node.
     far: [Ordering; 2],
     /// Nodes on the negative and the positive side.
     sides: [u32; 2],
+}
+
+/// A rectangle of pixels.
+#[derive(Clone, Debug)]
+struct Part {
+    columns: Range<i32>,
+    rows: Range<i32>,
+}
+
+impl Part {
+    /// Whether they have pixels in common.
+    fn meets(&self, other: &Part) -> bool {
+        let meet = |a: &Range<i32>, b: &Range<i32>| a.start < b.end && b.start < a.end;
+        meet(&self.columns, &other.columns) && meet(&self.rows, &other.rows)
+    }
+
+    /// The smallest part that has both.
+    fn with(&self, other: &Part) -> Part {
+        let join = |a: &Range<i32>, b: &Range<i32>| a.start.min(b.start)..a.end.max(b.end);
+        Part { columns: join(&self.columns, &other.columns), rows: join(&self.rows, &other.rows) }
+    }
 }
 
 impl Tree {
@@ -62,15 +90,8 @@ impl Tree {
         self.nodes.iter().filter(|node| node.polygon != NONE).count()
     }
 
-    /// Nodes whose plane passes between the eyes.
+    /// Planes between the eyes below which the order for the left eye may be another.
     pub fn contested(&self) -> usize {
-        self.nodes.iter().filter(|node| node.is_contested()).count()
-    }
-}
-
-impl Node {
-    /// Whether the eyes are on different sides of the plane.
-    fn is_contested(&self) -> bool {
-        self.far[0] != self.far[1] && self.far.iter().all(|&far| far != Ordering::Equal)
+        self.nodes.iter().filter(|node| node.contested.is_some()).count()
     }
 }

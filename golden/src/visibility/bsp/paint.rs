@@ -1,13 +1,16 @@
 //! Traversals that paint.
 
+use super::piece::Region;
 use super::scan::Scan;
-use super::{Node, Tree, NONE};
-use crate::direct::depth_at;
-use crate::formats::Eye;
-use crate::setup::{Attributes, Linear};
+use super::{Node, Part, Tree, NONE};
+use crate::formats::{Eye, FRACTION_BITS};
+use crate::setup::Linear;
+use crate::visibility::depths::keep_nearer;
+use crate::visibility::scan_line::Line;
 use crate::visibility::{Items, Surfaces};
 use crate::work::Meter;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// What one eye sees, by a traversal for it.
 pub fn one(surfaces: &Surfaces, tree: &Tree, eye: Eye, meter: &mut impl Meter) -> Items {
@@ -25,31 +28,21 @@ pub fn both(surfaces: &Surfaces, tree: &Tree, meter: &mut impl Meter) -> [Items;
 }
 
 /// Depths of the left view, where the order does not decide.
-///
-/// What is painted later under another plane is nearer than all before it, so depths are kept
-/// relative to that plane's turn, and the buffer is never cleared.
 #[derive(Clone, Debug, Default)]
-pub struct ZBuffer {
-    depths: Vec<i64>,
-    turn: i64,
-}
+pub struct ZBuffer(Vec<i32>);
 
 impl ZBuffer {
-    /// Begins a turn, for a view of this size.
-    fn begin(&mut self, pixels: usize) {
-        self.turn += 1;
-        self.depths.resize(pixels, i64::MAX);
+    /// Clears a part of the buffer of a view.
+    fn clear(&mut self, items: &Items, part: &Part) {
+        self.0.resize(items.item.len(), i32::MAX);
+        for row in part.rows.clone() {
+            self.span(items, row, part.columns.clone()).fill(i32::MAX);
+        }
     }
 
-    /// Keeps a polygon where it is nearer.
-    fn span(&mut self, items: &mut [u32], start: usize, depth: impl Fn(i64) -> u32, polygon: u32) {
-        let depths = &mut self.depths[start..start + items.len()];
-        for (n, (item, least)) in items.iter_mut().zip(depths).enumerate() {
-            let depth = i64::from(depth(n as i64)) - (self.turn << 32);
-            if depth < *least {
-                (*item, *least) = (polygon, depth);
-            }
-        }
+    fn span(&mut self, items: &Items, row: i32, columns: Range<i32>) -> &mut [i32] {
+        let start = row as usize * items.width as usize;
+        &mut self.0[start + columns.start as usize..start + columns.end as usize]
     }
 }
 
@@ -73,7 +66,18 @@ pub fn draw<const EYES: usize>(
     meter: &mut impl Meter,
 ) {
     items.iter_mut().for_each(Items::clear);
-    let mut painter = Painter { surfaces, eyes, items, z_buffer, meter, contested: false };
+    let mut painter = Painter {
+        surfaces,
+        eyes,
+        items,
+        z_buffer,
+        meter,
+        contested: false,
+        scan: Scan::new(),
+        scan_one: Scan::new(),
+        spans: Vec::new(),
+        top: 0,
+    };
     let root = if tree.nodes.is_empty() { NONE } else { 0 };
     let mut tasks = vec![Task::Visit(root)];
     while let Some(task) = tasks.pop() {
@@ -83,8 +87,9 @@ pub fn draw<const EYES: usize>(
             Task::Agree => painter.contested = false,
             Task::Visit(number) => {
                 let node = &tree.nodes[number as usize];
-                if EYES > 1 && !painter.contested && node.is_contested() {
-                    painter.contest();
+                if let (Some(part), false) = (&node.contested, EYES == 1 || painter.contested) {
+                    painter.contested = true;
+                    painter.z_buffer.clear(&painter.items[0], part);
                     tasks.push(Task::Agree);
                 }
                 let [low, high] = node.sides;
@@ -107,6 +112,11 @@ struct Painter<'a, M, const EYES: usize> {
     meter: &'a mut M,
     /// Whether all but the last view are to be resolved by depth.
     contested: bool,
+    scan: Scan<EYES>,
+    scan_one: Scan<1>,
+    /// Spans of the polygon in the views, from row `top` on.
+    spans: Vec<[[i32; 2]; EYES]>,
+    top: i32,
 }
 
 impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
@@ -117,61 +127,75 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
         far.into_iter().rev().find(|far| far.is_ne()).unwrap_or(Ordering::Equal)
     }
 
-    fn contest(&mut self) {
-        self.contested = true;
-        self.z_buffer.begin(self.items[0].item.len());
-    }
-
-    /// Paints the polygon of a node, in all views at once.
+    /// Paints the polygon of a node: converts its edges for all views at once, then fills. If not
+    /// all eyes see this piece, it is converted for the one that does.
     fn node(&mut self, node: &Node) {
         let regions = self.eyes.map(|eye| node.views[eye as usize].as_ref());
-        let seen = regions.iter().flatten();
-        let rows = seen.fold(i32::MAX..i32::MIN, |rows, region| {
-            rows.start.min(region.rows.start)..rows.end.max(region.rows.end)
-        });
-        if rows.is_empty() {
+        let seen = regions.iter().flatten().count();
+        if seen == 0 {
             return;
         }
+        let rows = regions.iter().flatten().fold(i32::MAX..i32::MIN, |rows, region| {
+            rows.start.min(region.rows.start)..rows.end.max(region.rows.end)
+        });
         let polygon = &self.surfaces.opaque[node.polygon as usize];
         let formats = &self.surfaces.formats;
-        let depth = (self.contested && regions[0].is_some())
-            .then(|| Attributes::depth(polygon, self.eyes[0], formats));
-        self.meter.note(|work| work.polygons += regions.iter().flatten().count() as u64);
-        Scan::new(polygon, self.eyes, &rows, formats).rows(|row, spans| {
-            self.meter.note(|work| {
-                work.edge_updates += 2;
-                work.interpolations += 2 * EYES as u64;
-            });
-            for view in 0..EYES {
-                let Some(region) = regions[view] else { continue };
-                let [low, high] = region.limit(row);
-                let [first, end] = spans[view];
-                let width = self.items[view].width as i32;
-                let (first, end) = (first.max(low).max(0), end.min(high).min(width));
-                if first < end {
-                    let depth = depth.as_ref().filter(|_| view == 0);
-                    self.span(view, row, [first, end], node.polygon, depth);
-                }
-            }
+        self.spans.clear();
+        if seen == EYES {
+            let push = |spans| self.spans.push(spans);
+            self.top = self.scan.rows(polygon, self.eyes, &rows, formats, push);
+        } else {
+            let view = usize::from(regions[0].is_none());
+            let push = |[span]: [[i32; 2]; 1]| self.spans.push([span; EYES]);
+            self.top = self.scan_one.rows(polygon, [self.eyes[view]], &rows, formats, push);
+        }
+        self.meter.note(|work| {
+            work.polygons += seen as u64;
+            work.edge_updates += 2 * self.spans.len() as u64;
+            work.interpolations += (2 * seen * self.spans.len()) as u64;
         });
+        for (view, region) in regions.into_iter().enumerate() {
+            let Some(region) = region else { continue };
+            match &node.depth {
+                Some(depth) if view + 1 < EYES && self.contested => {
+                    self.compare(view, region, node.polygon, depth);
+                }
+                _ => self.fill(view, region, node.polygon),
+            }
+        }
     }
 
-    #[inline]
-    fn span(
-        &mut self,
-        view: usize,
-        row: i32,
-        columns: [i32; 2],
-        polygon: u32,
-        depth: Option<&Linear>,
-    ) {
-        let [first, end] = columns.map(|n| n as usize);
-        self.meter.note(|work| work.pixels_written += (end - first) as u64);
-        let start = row as usize * self.items[view].width as usize + first;
-        let span = &mut self.items[view].row(row)[first..end];
-        let Some(depth) = depth else { return span.fill(polygon) };
-        self.meter.note(|work| work.depth_tests += (end - first) as u64);
-        let at = |n: i64| depth_at(depth, first as i64 + n, row.into());
-        self.z_buffer.span(span, start, at, polygon);
+    /// Fills the spans of a view.
+    fn fill(&mut self, view: usize, region: &Region, polygon: u32) {
+        let items = &mut self.items[view];
+        let width = items.width as i32;
+        for (row, spans) in (self.top..).zip(&self.spans) {
+            let [first, end] = region.within(row, spans[view], width);
+            if first < end {
+                self.meter.note(|work| work.pixels_written += (end - first) as u64);
+                items.row(row)[first as usize..end as usize].fill(polygon);
+            }
+        }
+    }
+
+    /// Draws the spans of a view where they are nearer.
+    fn compare(&mut self, view: usize, region: &Region, polygon: u32, depth: &Linear) {
+        const UNIT: f64 = (1 << FRACTION_BITS) as f64;
+        let items = &mut self.items[view];
+        let width = items.width as i32;
+        for (row, spans) in (self.top..).zip(&self.spans) {
+            let [first, end] = region.within(row, spans[view], width);
+            if first < end {
+                self.meter.note(|work| {
+                    work.pixels_written += (end - first) as u64;
+                    work.depth_tests += (end - first) as u64;
+                });
+                let depths = self.z_buffer.span(items, row, first..end);
+                let items = &mut items.row(row)[first as usize..end as usize];
+                let first = depth.at(first.into(), row.into());
+                let line = Line { first: first as f64 / UNIT, slope: depth.a as f64 / UNIT };
+                keep_nearer(items, depths, line, polygon);
+            }
+        }
     }
 }

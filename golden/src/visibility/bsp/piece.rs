@@ -5,8 +5,9 @@
 
 use super::plane::Side;
 use super::scan::Scan;
+use super::Part;
 use crate::formats::{Eye, Formats};
-use crate::setup::Polygon;
+use crate::setup::{Outline, Polygon};
 use std::ops::Range;
 
 /// A polygon, or a part of one.
@@ -27,6 +28,17 @@ pub(super) struct Region {
 }
 
 impl Region {
+    /// What it has of the polygon's span on a row, in a view of this width.
+    #[inline]
+    pub fn within(&self, row: i32, [first, end]: [i32; 2], width: i32) -> [i32; 2] {
+        let (first, end) = (first.max(0), end.min(width));
+        if self.limits.is_empty() {
+            return [first, end];
+        }
+        let [low, high] = self.limit(row);
+        [first.max(low), end.min(high)]
+    }
+
     /// The limits of the columns on a row.
     #[inline]
     pub fn limit(&self, row: i32) -> [i32; 2] {
@@ -61,14 +73,23 @@ impl Window {
 
     /// Calls `visit` for each row of a region with the first pixel and the one past the last.
     fn pixels(&self, polygon: &Polygon, region: &Region, mut visit: impl FnMut(i32, [i32; 2])) {
-        let right = self.width as i32;
-        Scan::new(polygon, [self.eye], &region.rows, &self.formats).rows(|row, [[first, end]]| {
-            let [low, high] = region.limit(row);
-            let (first, end) = (first.max(low).max(0), end.min(high).min(right));
+        let mut spans = Vec::new();
+        let push = |[span]: [[i32; 2]; 1]| spans.push(span);
+        let top = Scan::new().rows(polygon, [self.eye], &region.rows, &self.formats, push);
+        for (row, span) in (top..).zip(spans) {
+            let [first, end] = region.within(row, span, self.width as i32);
             if first < end {
                 visit(row, [first, end]);
             }
-        });
+        }
+    }
+
+    /// A rectangle around a region.
+    pub fn part(&self, polygon: &Polygon, region: &Region) -> Part {
+        let [[left, _], [right, _]] = Outline::new(polygon, self.eye).bounds();
+        let column = |x: i64| (x >> self.formats.subpixel_bits).clamp(0, self.width.into()) as i32;
+        let columns = column(left)..column(right + self.formats.one_pixel());
+        Part { columns, rows: region.rows.clone() }
     }
 
     /// Whether a region has pixels on the negative, and on the positive side; neither where all of

@@ -1,74 +1,87 @@
 //! Rows of one polygon, in one view or in two at once.
 
 use crate::formats::{Eye, Formats};
-use crate::setup::{Polygon, MAX_VERTICES};
+use crate::setup::Polygon;
 use crate::visibility::edge::Edge;
 use std::ops::Range;
 
-/// A convex polygon followed from row to row.
-pub(in crate::visibility) struct Scan<const EYES: usize> {
-    /// Sorted by the first row. Two cross each row; when one ends, the next takes its place.
-    edges: [Edge<f64, EYES>; MAX_VERTICES],
-    count: usize,
-    next: usize,
-    pair: [usize; 2],
-    row: i32,
-    end: i32,
+/// Follows convex polygons from row to row.
+pub(super) struct Scan<const EYES: usize> {
+    /// Edges of the polygon, sorted by the first row. Two of them cross each row; when one ends,
+    /// the next one takes its place.
+    edges: Vec<Edge<EYES>>,
 }
 
 impl<const EYES: usize> Scan<EYES> {
-    /// The polygon from the first of these rows on.
-    pub fn new(polygon: &Polygon, eyes: [Eye; EYES], rows: &Range<i32>, formats: &Formats) -> Self {
-        let mut edges = [Edge::NONE; MAX_VERTICES];
-        let mut count = 0;
-        let mut end = i32::MIN;
+    pub fn new() -> Self {
+        Scan { edges: Vec::new() }
+    }
+
+    /// Takes up the edges of a polygon that cross any of these rows.
+    #[inline]
+    fn begin(
+        &mut self,
+        polygon: &Polygon,
+        eyes: [Eye; EYES],
+        rows: &Range<i32>,
+        formats: &Formats,
+    ) {
+        self.edges.clear();
         let mut from = &polygon.vertices[polygon.vertices.len() - 1];
         for to in &polygon.vertices {
             let (upper, lower) = if from.y[0] <= to.y[0] { (from, to) } else { (to, from) };
             from = to;
-            let Some((edge, _)) = Edge::new(upper, lower, eyes, rows.start, formats) else {
-                continue;
-            };
-            let mut k = count;
-            while k > 0 && edges[k - 1].first > edge.first {
-                edges[k] = edges[k - 1];
-                k -= 1;
+            let made = Edge::new::<f64>(upper, lower, eyes, rows.start, formats);
+            if let Some((edge, _)) = made {
+                self.edges.push(edge);
             }
-            edges[k] = edge;
-            count += 1;
-            end = end.max(edge.end);
         }
-        let row = edges[0].first;
-        Scan { edges, count, next: 2, pair: [0, 1], row, end: end.min(rows.end) }
+        for n in 1..self.edges.len() {
+            let earlier = |k: &usize| self.edges[*k - 1].first > self.edges[n].first;
+            let place = (1..=n).rev().take_while(earlier).last();
+            if let Some(place) = place {
+                self.edges[place - 1..=n].rotate_right(1);
+            }
+        }
     }
 
-    /// Calls `pixels` for each row with the first pixel of the span and the one past its last in
-    /// each view.
+    /// Calls `pixels` for each of the rows that a polygon crosses, with the first pixel of its
+    /// span and the one past the last in each view. Returns the first row.
     #[inline]
-    pub fn rows(mut self, mut pixels: impl FnMut(i32, [[i32; 2]; EYES])) {
-        while self.row < self.end {
-            let [a, b] = self.pair;
-            let until = self.edges[a].end.min(self.edges[b].end).min(self.end);
-            if until <= self.row {
-                // Not convex.
-                return;
+    pub fn rows(
+        &mut self,
+        polygon: &Polygon,
+        eyes: [Eye; EYES],
+        rows: &Range<i32>,
+        formats: &Formats,
+        mut pixels: impl FnMut([[i32; 2]; EYES]),
+    ) -> i32 {
+        self.begin(polygon, eyes, rows, formats);
+        let [Some(mut a), Some(mut b)] = [0, 1].map(|n| self.edges.get(n).copied()) else {
+            return rows.end;
+        };
+        let mut rest = self.edges[2..].iter();
+        let (top, mut row) = (a.first, a.first);
+        loop {
+            let until = a.end.min(b.end).min(rows.end);
+            for _ in row..until {
+                pixels(std::array::from_fn(|view| {
+                    let [a, b] = [a.cell(view), b.cell(view)];
+                    [a.min(b), a.max(b)]
+                }));
+                a.step();
+                b.step();
             }
-            for row in self.row..until {
-                pixels(
-                    row,
-                    std::array::from_fn(|view| {
-                        let [a, b] = [a, b].map(|k| self.edges[k].x[view].cell);
-                        [a.min(b), a.max(b)]
-                    }),
-                );
-                self.edges[a].step();
-                self.edges[b].step();
+            row = until;
+            if row == rows.end {
+                return top;
             }
-            self.row = until;
-            for side in &mut self.pair {
-                if self.edges[*side].end <= until && self.next < self.count {
-                    *side = self.next;
-                    self.next += 1;
+            for side in [&mut a, &mut b] {
+                if side.end == row {
+                    match rest.next() {
+                        Some(next) => *side = *next,
+                        None => return top,
+                    }
                 }
             }
         }

@@ -1,16 +1,10 @@
 //! The pixels of one row: which polygon is nearest at each.
 
 use super::table::{Line, Table};
+use crate::visibility::depths::keep_nearer;
 use crate::visibility::NO_ITEM;
 use crate::work::{Meter, Real};
 use std::ops::Range;
-
-/// Fraction bits of a depth in a row.
-const FRACTION: u32 = 7;
-
-/// Pixels after which a depth is computed anew: until then the rounding of its slope adds up to a
-/// quarter of a unit at most.
-const STRETCH: i32 = 64;
 
 /// The depths of the nearest polygons of a row.
 pub(super) struct Depths(Vec<i32>);
@@ -40,44 +34,9 @@ impl Depths {
                 work.depth_tests += columns.len() as u64;
             });
             let depth = span.line(0, span.offset(columns.start));
-            self.span(items, columns, depth, polygon);
+            let columns = columns.start as usize..columns.end as usize;
+            keep_nearer(&mut items[columns.clone()], &mut self.0[columns], depth, polygon);
         }
-    }
-
-    /// Compares the depths of a span.
-    #[inline]
-    fn span<T: Real>(
-        &mut self,
-        items: &mut [u32],
-        columns: Range<i32>,
-        depth: Line<T>,
-        polygon: u32,
-    ) {
-        const UNIT: f64 = (1 << FRACTION) as f64;
-        let (first, slope) = (depth.first.value() * UNIT, depth.slope.value() * UNIT);
-        let mut start = columns.start;
-        while start < columns.end {
-            let end = columns.end.min(start + STRETCH);
-            let from = (first + slope * f64::from(start - columns.start)) as i32;
-            let stretch = start as usize..end as usize;
-            let depths = &mut self.0[stretch.clone()];
-            compare(&mut items[stretch], depths, from, slope as i32, polygon);
-            start = end;
-        }
-    }
-}
-
-/// Keeps the nearer of what is there and a polygon. Both are stored, one of them anew, which
-/// compilers make vector instructions of.
-#[inline]
-fn compare(items: &mut [u32], depths: &mut [i32], first: i32, slope: i32, polygon: u32) {
-    let mut depth = first;
-    for (item, least) in items.iter_mut().zip(depths) {
-        let nearer = depth < *least;
-        *item = if nearer { polygon } else { *item };
-        *least = if nearer { depth } else { *least };
-        // Steep depths wrap beyond the end of a short span, where nobody looks.
-        depth = depth.wrapping_add(slope);
     }
 }
 

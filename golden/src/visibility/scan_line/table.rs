@@ -11,7 +11,7 @@ const NONE: u32 = u32::MAX;
 
 /// An edge in the table.
 struct Entry<T, const EYES: usize, const VALUES: usize> {
-    edge: Edge<T, EYES>,
+    edge: Edge<EYES>,
     polygon: u32,
     /// The next one in the same bucket.
     next: u32,
@@ -115,7 +115,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
 
     fn insert(
         &mut self,
-        (edge, along): (Edge<T, EYES>, Along<T>),
+        (edge, along): (Edge<EYES>, Along<T>),
         polygon: u32,
         [upper, lower]: [[T; VALUES]; 2],
     ) {
@@ -184,7 +184,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
     pub fn span(&self, polygon: u32, view: usize) -> Span<'_, T, EYES, VALUES> {
         let face = &self.faces[polygon as usize];
         let [a, b] = face.sides.map(|side| &self.entries[side as usize]);
-        let [cell, end] = [a, b].map(|side| side.edge.x[view].cell);
+        let [cell, end] = [a, b].map(|side| side.edge.cell(view));
         let (left, columns) = if cell <= end { (a, cell..end) } else { (b, end..cell) };
         Span { columns, left, view, slopes: &face.slopes[view] }
     }
@@ -203,7 +203,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Span<'_, T, EYES, VALUES> 
     /// From the left edge to the centre of a pixel.
     #[inline]
     pub fn offset(&self, column: i32) -> T {
-        self.left.edge.offset(self.view) + T::of(f64::from(column - self.columns.start))
+        self.left.edge.offset(self.view, column)
     }
 
     /// A value from that pixel on.
