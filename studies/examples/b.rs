@@ -12,8 +12,12 @@ use wheatstone_golden::{
 fn main() {
     let w: u32 = std::env::args().nth(1).and_then(|s| s.parse().ok()).unwrap_or(640);
     let cull = if std::env::args().nth(2).is_some() { Cull::None } else { Cull::Back };
-    for name in ["village", "teapot", "exclusive", "room"] {
-        let s = scene::open(name, Some([w, w * 3 / 4]), None).unwrap();
+    for name in ["boxes12", "boxes40", "boxes80", "village"] {
+        let s = if let Some(n) = name.strip_prefix("boxes") {
+            wheatstone_studies::village::boxes(n.parse().unwrap(), w, w * 3 / 4)
+        } else {
+            scene::open(name, Some([w, w * 3 / 4]), None).unwrap()
+        };
         let g = s
             .geometry(
                 &Formats::new(&Config::DEFAULT),
@@ -40,6 +44,15 @@ fn main() {
         let [z0, z1, z2] = &mut z;
         let mut w = Work::default();
         bsp::draw(&f, &tree, Eye::BOTH, &mut j, z2, &mut w);
+        let fr = f.frame(&j[0], Eye::Left);
+        let pic = wheatstone_golden::picture::RgbImage::from_fn(fr.width, fr.height, |x, y| {
+            wheatstone_golden::picture::Rgb(fr.colour[(y * fr.width + x) as usize])
+        });
+        wheatstone_golden::picture::write_png(
+            std::path::Path::new(&format!("/tmp/{name}.png")),
+            &pic,
+        )
+        .unwrap();
         let r = wheatstone_studies::timing::ratio(
             201,
             || {

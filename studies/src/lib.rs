@@ -6,6 +6,7 @@
 pub mod plot;
 pub mod report;
 pub mod timing;
+pub mod village;
 
 pub use report::{Check, Report, Row, Table, Verdict};
 

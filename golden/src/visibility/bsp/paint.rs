@@ -1,6 +1,5 @@
 //! Traversals that paint.
 
-use super::piece::Region;
 use super::scan::Scan;
 use super::{Node, Part, Tree, NONE};
 use crate::formats::{Eye, FRACTION_BITS};
@@ -44,6 +43,23 @@ impl ZBuffer {
         let start = row as usize * items.width as usize;
         &mut self.0[start + columns.start as usize..start + columns.end as usize]
     }
+
+    /// Draws part of a row where it is nearer.
+    fn draw(
+        &mut self,
+        items: &mut Items,
+        row: i32,
+        columns: Range<i32>,
+        depth: &Linear,
+        polygon: u32,
+    ) {
+        const UNIT: f64 = (1 << FRACTION_BITS) as f64;
+        let depths = self.span(items, row, columns.clone());
+        let first = depth.at(columns.start.into(), row.into());
+        let line = Line { first: first as f64 / UNIT, slope: depth.a as f64 / UNIT };
+        let columns = columns.start as usize..columns.end as usize;
+        keep_nearer(&mut items.row(row)[columns], depths, line, polygon);
+    }
 }
 
 /// What is left to do of a traversal.
@@ -75,8 +91,6 @@ pub fn draw<const EYES: usize>(
         contested: false,
         scan: Scan::new(),
         scan_one: Scan::new(),
-        spans: Vec::new(),
-        top: 0,
     };
     let root = if tree.nodes.is_empty() { NONE } else { 0 };
     let mut tasks = vec![Task::Visit(root)];
@@ -114,9 +128,6 @@ struct Painter<'a, M, const EYES: usize> {
     contested: bool,
     scan: Scan<EYES>,
     scan_one: Scan<1>,
-    /// Spans of the polygon in the views, from row `top` on.
-    spans: Vec<[[i32; 2]; EYES]>,
-    top: i32,
 }
 
 impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
@@ -127,75 +138,64 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
         far.into_iter().rev().find(|far| far.is_ne()).unwrap_or(Ordering::Equal)
     }
 
-    /// Paints the polygon of a node: converts its edges for all views at once, then fills. If not
-    /// all eyes see this piece, it is converted for the one that does.
+    /// Paints the polygon of a node in all views at once. If not all eyes see this piece of it, it
+    /// is converted for the one that does.
     fn node(&mut self, node: &Node) {
-        let regions = self.eyes.map(|eye| node.views[eye as usize].as_ref());
+        let Painter { surfaces, eyes, items, z_buffer, meter, contested, scan, scan_one } = self;
+        let regions = eyes.map(|eye| node.views[eye as usize].as_ref());
         let seen = regions.iter().flatten().count();
         if seen == 0 {
             return;
         }
+        meter.note(|work| work.polygons += seen as u64);
         let rows = regions.iter().flatten().fold(i32::MAX..i32::MIN, |rows, region| {
             rows.start.min(region.rows.start)..rows.end.max(region.rows.end)
         });
-        let polygon = &self.surfaces.opaque[node.polygon as usize];
-        let formats = &self.surfaces.formats;
-        self.spans.clear();
-        if seen == EYES {
-            let push = |spans| self.spans.push(spans);
-            self.top = self.scan.rows(polygon, self.eyes, &rows, formats, push);
+        let polygon = &surfaces.opaque[node.polygon as usize];
+        let formats = &surfaces.formats;
+        let depth = node.depth.as_ref().filter(|_| *contested);
+        let width = surfaces.width as i32;
+        let mut draw = |view: usize, row: i32, span: [i32; 2]| {
+            let Some(region) = regions[view] else { return };
+            let [first, end] = region.within(row, span, width);
+            if first >= end {
+                return;
+            }
+            meter.note(|work| work.pixels_written += (end - first) as u64);
+            match depth {
+                Some(depth) if view + 1 < EYES => {
+                    meter.note(|work| work.depth_tests += (end - first) as u64);
+                    z_buffer.draw(&mut items[view], row, first..end, depth, node.polygon);
+                }
+                _ => fill(&mut items[view].row(row)[first as usize..end as usize], node.polygon),
+            }
+        };
+        let converted = if seen == EYES {
+            scan.rows(polygon, *eyes, &rows, formats, |row, spans| {
+                (0..EYES).for_each(|view| draw(view, row, spans[view]));
+            })
         } else {
             let view = usize::from(regions[0].is_none());
-            let push = |[span]: [[i32; 2]; 1]| self.spans.push([span; EYES]);
-            self.top = self.scan_one.rows(polygon, [self.eyes[view]], &rows, formats, push);
-        }
-        self.meter.note(|work| {
-            work.polygons += seen as u64;
-            work.edge_updates += 2 * self.spans.len() as u64;
-            work.interpolations += (2 * seen * self.spans.len()) as u64;
+            let draw = |row: i32, [span]: [[i32; 2]; 1]| draw(view, row, span);
+            scan_one.rows(polygon, [eyes[view]], &rows, formats, draw)
+        };
+        meter.note(|work| {
+            work.edge_updates += 2 * converted as u64;
+            work.interpolations += (2 * seen * converted) as u64;
         });
-        for (view, region) in regions.into_iter().enumerate() {
-            let Some(region) = region else { continue };
-            match &node.depth {
-                Some(depth) if view + 1 < EYES && self.contested => {
-                    self.compare(view, region, node.polygon, depth);
-                }
-                _ => self.fill(view, region, node.polygon),
-            }
-        }
     }
+}
 
-    /// Fills the spans of a view.
-    fn fill(&mut self, view: usize, region: &Region, polygon: u32) {
-        let items = &mut self.items[view];
-        let width = items.width as i32;
-        for (row, spans) in (self.top..).zip(&self.spans) {
-            let [first, end] = region.within(row, spans[view], width);
-            if first < end {
-                self.meter.note(|work| work.pixels_written += (end - first) as u64);
-                items.row(row)[first as usize..end as usize].fill(polygon);
-            }
-        }
+/// Fills a span, which is often shorter than what loops over vectors are made for: in blocks, of
+/// which the last one may lie over another.
+#[inline]
+fn fill(span: &mut [u32], polygon: u32) {
+    const BLOCK: usize = 8;
+    let block = [polygon; BLOCK];
+    let length = span.len();
+    if length < BLOCK {
+        return span.iter_mut().for_each(|item| *item = polygon);
     }
-
-    /// Draws the spans of a view where they are nearer.
-    fn compare(&mut self, view: usize, region: &Region, polygon: u32, depth: &Linear) {
-        const UNIT: f64 = (1 << FRACTION_BITS) as f64;
-        let items = &mut self.items[view];
-        let width = items.width as i32;
-        for (row, spans) in (self.top..).zip(&self.spans) {
-            let [first, end] = region.within(row, spans[view], width);
-            if first < end {
-                self.meter.note(|work| {
-                    work.pixels_written += (end - first) as u64;
-                    work.depth_tests += (end - first) as u64;
-                });
-                let depths = self.z_buffer.span(items, row, first..end);
-                let items = &mut items.row(row)[first as usize..end as usize];
-                let first = depth.at(first.into(), row.into());
-                let line = Line { first: first as f64 / UNIT, slope: depth.a as f64 / UNIT };
-                keep_nearer(items, depths, line, polygon);
-            }
-        }
-    }
+    span.chunks_exact_mut(BLOCK).for_each(|items| items.copy_from_slice(&block));
+    span[length - BLOCK..].copy_from_slice(&block);
 }

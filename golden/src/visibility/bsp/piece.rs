@@ -73,15 +73,13 @@ impl Window {
 
     /// Calls `visit` for each row of a region with the first pixel and the one past the last.
     fn pixels(&self, polygon: &Polygon, region: &Region, mut visit: impl FnMut(i32, [i32; 2])) {
-        let mut spans = Vec::new();
-        let push = |[span]: [[i32; 2]; 1]| spans.push(span);
-        let top = Scan::new().rows(polygon, [self.eye], &region.rows, &self.formats, push);
-        for (row, span) in (top..).zip(spans) {
+        let rows = &region.rows;
+        Scan::new().rows(polygon, [self.eye], rows, &self.formats, |row, [span]| {
             let [first, end] = region.within(row, span, self.width as i32);
             if first < end {
                 visit(row, [first, end]);
             }
-        }
+        });
     }
 
     /// A rectangle around a region.

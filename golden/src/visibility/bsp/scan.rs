@@ -46,7 +46,7 @@ impl<const EYES: usize> Scan<EYES> {
     }
 
     /// Calls `pixels` for each of the rows that a polygon crosses, with the first pixel of its
-    /// span and the one past the last in each view. Returns the first row.
+    /// span and the one past the last in each view. Returns how many they are.
     #[inline]
     pub fn rows(
         &mut self,
@@ -54,33 +54,35 @@ impl<const EYES: usize> Scan<EYES> {
         eyes: [Eye; EYES],
         rows: &Range<i32>,
         formats: &Formats,
-        mut pixels: impl FnMut([[i32; 2]; EYES]),
-    ) -> i32 {
+        mut pixels: impl FnMut(i32, [[i32; 2]; EYES]),
+    ) -> usize {
         self.begin(polygon, eyes, rows, formats);
         let [Some(mut a), Some(mut b)] = [0, 1].map(|n| self.edges.get(n).copied()) else {
-            return rows.end;
+            return 0;
         };
         let mut rest = self.edges[2..].iter();
-        let (top, mut row) = (a.first, a.first);
+        let mut row = a.first;
+        let first = row;
         loop {
             let until = a.end.min(b.end).min(rows.end);
-            for _ in row..until {
-                pixels(std::array::from_fn(|view| {
+            for row in row..until {
+                let spans = std::array::from_fn(|view| {
                     let [a, b] = [a.cell(view), b.cell(view)];
                     [a.min(b), a.max(b)]
-                }));
+                });
+                pixels(row, spans);
                 a.step();
                 b.step();
             }
             row = until;
             if row == rows.end {
-                return top;
+                return (row - first) as usize;
             }
             for side in [&mut a, &mut b] {
                 if side.end == row {
                     match rest.next() {
                         Some(next) => *side = *next,
-                        None => return top,
+                        None => return (row - first) as usize,
                     }
                 }
             }
