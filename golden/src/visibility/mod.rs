@@ -7,6 +7,7 @@ pub mod bsp;
 mod depths;
 mod edge;
 mod items;
+pub mod renderer;
 pub mod scan_line;
 mod surfaces;
 

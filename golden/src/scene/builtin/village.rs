@@ -142,9 +142,9 @@ fn ground(mason: &mut Mason) {
         let spot = f64::from((column * 37 + row * 61).rem_euclid(7)) / 7.0;
         toned(GRASS, 0.86 + 0.24 * spot)
     };
-    for row in 0..5 {
-        for column in 0..5 {
-            let at = |i: i32, j: i32| [f64::from(i * 20 - 48), 0.0, f64::from(j * 16 - 22)];
+    for row in 0..4 {
+        for column in 0..4 {
+            let at = |i: i32, j: i32| [f64::from(i * 25 - 48), 0.0, f64::from(j * 20 - 22)];
             let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| (column + i, row + j));
             mason.polygon(&corners.map(|(i, j)| at(i, j)), &corners.map(|(i, j)| green(i, j)));
         }
@@ -178,13 +178,13 @@ fn build(mason: &mut Mason, house: &House) {
         }
     }
     let [front, right, ..] = &walls;
-    window(mason, right, [right.length / 2.0 - 0.45, height - 0.3], house.shutters);
+    window(mason, right, [right.length / 2.0 - 0.45, height - 0.3]);
     let step = width / house.windows as f64;
     for n in 0..house.windows {
         let u = step * (n as f64 + 0.5) - 0.45;
-        window(mason, front, [u, height - 1.7], house.shutters);
+        shuttered(mason, front, [u, height - 1.7], house.shutters);
         if n != house.windows / 2 {
-            window(mason, front, [u, 0.9], house.shutters);
+            shuttered(mason, front, [u, 0.9], house.shutters);
         }
     }
     let middle = step * ((house.windows / 2) as f64 + 0.5);
@@ -199,13 +199,19 @@ fn shaded(paint: Paint) -> [Paint; 2] {
     [toned(paint, 0.78), paint]
 }
 
-/// A window with shutters; `place` is its lower left corner.
-fn window(mason: &mut Mason, wall: &Wall, place: [f64; 2], shutters: Paint) {
+/// A window; `place` is its lower left corner.
+fn window(mason: &mut Mason, wall: &Wall, place: [f64; 2]) {
     let [u, v] = place;
     wall.panel(mason, [u - 0.1, v - 0.1], [u + 1.0, v + 1.3], 0.04, [FRAME, FRAME]);
     wall.panel(mason, [u, v], [u + 0.9, v + 1.2], 0.08, GLASS);
+}
+
+/// A window with shutters.
+fn shuttered(mason: &mut Mason, wall: &Wall, place: [f64; 2], paint: Paint) {
+    window(mason, wall, place);
+    let [u, v] = place;
     for side in [u - 0.6, u + 1.0] {
-        wall.panel(mason, [side, v - 0.05], [side + 0.5, v + 1.25], 0.06, shaded(shutters));
+        wall.panel(mason, [side, v - 0.05], [side + 0.5, v + 1.25], 0.06, shaded(paint));
     }
 }
 

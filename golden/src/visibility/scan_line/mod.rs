@@ -14,7 +14,7 @@ mod table;
 
 use super::{Items, Surfaces};
 use crate::formats::{Eye, Formats};
-use crate::setup::{Polygon, Vertex};
+use crate::setup::Vertex;
 use crate::work::{Meter, Real};
 use row::Depths;
 use table::Table;
@@ -45,26 +45,34 @@ pub fn draw_items<T: Real, const EYES: usize>(
     meter: &mut impl Meter,
 ) {
     let depth = |v: &Vertex| [T::of(f64::from(v.depth))];
-    let nothing = |_: Seen<T, EYES, 1>| ();
-    draw(&surfaces.opaque, eyes, &surfaces.formats, depth, items, meter, nothing);
+    let polygons = surfaces.opaque.iter();
+    let polygons = polygons.map(|p| (eyes.map(|eye| p.eyes.contains(eye)), p.vertices.iter()));
+    let nothing = |_: Seen<T, EYES, 1>, _: &mut _| ();
+    draw(polygons, eyes, &surfaces.formats, depth, items, meter, nothing);
 }
 
-/// Draws convex polygons, those that are wanted in any of these views, into item buffers of one
-/// size.
+/// Draws convex polygons into item buffers of one size. Of each polygon is given in which of the
+/// views it is to be seen, and its corners.
 ///
 /// `values` gives depth and whatever else is to be interpolated of a corner, which must not depend
 /// on the view; `paint` is told what is seen on each row of each view.
-pub fn draw<T: Real, const EYES: usize, const VALUES: usize>(
-    polygons: &[Polygon],
+pub fn draw<'a, T: Real, C, M: Meter, const EYES: usize, const VALUES: usize>(
+    polygons: impl Iterator<Item = ([bool; EYES], C)>,
     eyes: [Eye; EYES],
     formats: &Formats,
     values: impl Fn(&Vertex) -> [T; VALUES],
     items: &mut [Items; EYES],
-    meter: &mut impl Meter,
-    mut paint: impl FnMut(Seen<T, EYES, VALUES>),
-) {
+    meter: &mut M,
+    mut paint: impl FnMut(Seen<T, EYES, VALUES>, &mut M),
+) where
+    C: Iterator<Item = &'a Vertex> + Clone,
+{
     let Items { width, height, .. } = items[0];
-    let mut table = Table::new(polygons, eyes, height, formats, values, meter);
+    let mut table = Table::new(eyes, height, *formats);
+    for (seen, corners) in polygons {
+        meter.note(|work| work.polygons += seen.iter().filter(|&&seen| seen).count() as u64);
+        table.add(seen, corners, &values);
+    }
     let mut depths = Depths::new(width);
     for row in 0..height as i32 {
         table.advance(row, meter);
@@ -72,7 +80,7 @@ pub fn draw<T: Real, const EYES: usize, const VALUES: usize>(
         for (view, items) in items.iter_mut().enumerate() {
             let items = items.row(row);
             depths.resolve(&table, view, items, meter);
-            paint(Seen { view, row, items, table: &table });
+            paint(Seen { view, row, items, table: &table }, meter);
         }
     }
 }

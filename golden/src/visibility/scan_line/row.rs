@@ -53,10 +53,7 @@ pub struct Seen<'a, T, const EYES: usize, const VALUES: usize> {
 
 impl<T: Real, const EYES: usize, const VALUES: usize> Seen<'_, T, EYES, VALUES> {
     /// Calls `paint` for each run of pixels that show one polygon, with the values beside depth.
-    pub fn runs<const MORE: usize>(
-        &self,
-        mut paint: impl FnMut(Range<usize>, u32, [Line<T>; MORE]),
-    ) {
+    pub fn runs<const MORE: usize>(&self, mut paint: impl FnMut(Range<usize>, [Line<T>; MORE])) {
         let mut start = 0;
         for run in self.items.chunk_by(|a, b| a == b) {
             let columns = start..start + run.len();
@@ -64,7 +61,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Seen<'_, T, EYES, VALUES> 
             if run[0] != NO_ITEM {
                 let span = self.table.span(run[0], self.view);
                 let offset = span.offset(columns.start as i32);
-                paint(columns, run[0], std::array::from_fn(|k| span.line(k + 1, offset)));
+                paint(columns, std::array::from_fn(|k| span.line(k + 1, offset)));
             }
         }
     }

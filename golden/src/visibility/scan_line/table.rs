@@ -1,7 +1,7 @@
 //! The edges of all polygons: buckets by the first row, and those that cross the current row.
 
 use crate::formats::{Eye, Formats};
-use crate::setup::{Polygon, Vertex};
+use crate::setup::Vertex;
 use crate::visibility::edge::{Along, Edge};
 use crate::work::{Meter, Real};
 use std::ops::Range;
@@ -38,79 +38,71 @@ pub(super) struct Table<T, const EYES: usize, const VALUES: usize> {
     faces: Vec<Face<T, EYES, VALUES>>,
     /// Polygons whose edges cross the current row, in their order.
     active: Vec<u32>,
+    eyes: [Eye; EYES],
+    formats: Formats,
 }
 
 impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
-    pub fn new(
-        polygons: &[Polygon],
-        eyes: [Eye; EYES],
-        height: u32,
-        formats: &Formats,
-        values: impl Fn(&Vertex) -> [T; VALUES],
-        meter: &mut impl Meter,
-    ) -> Self {
-        let mut table = Table {
-            entries: Vec::with_capacity(3 * polygons.len()),
-            buckets: vec![NONE; height as usize],
-            faces: Vec::with_capacity(polygons.len()),
-            active: Vec::new(),
-        };
-        for polygon in polygons {
-            let seen = eyes.map(|eye| polygon.eyes.contains(eye));
-            let slopes = if seen.contains(&true) {
-                meter.note(|work| {
-                    work.polygons += seen.iter().filter(|&&seen| seen).count() as u64;
-                });
-                table.edges(polygon, eyes, formats, &values)
-            } else {
-                [[T::of(0.0); VALUES]; EYES]
-            };
-            table.faces.push(Face { seen, sides: [NONE; 2], slopes });
-        }
-        table
+    pub fn new(eyes: [Eye; EYES], height: u32, formats: Formats) -> Self {
+        let buckets = vec![NONE; height as usize];
+        let (entries, faces, active) = (Vec::new(), Vec::new(), Vec::new());
+        Table { entries, buckets, faces, active, eyes, formats }
     }
 
-    /// Adds the edges of the next polygon; the slopes of its values in each view.
+    /// Adds the edges of a polygon to the table.
     ///
-    /// The slope of v along x is the integral of v dy round the polygon by that of x dy. Only the
-    /// latter, the area, depends on the view.
-    fn edges(
+    /// The slope of a value v along x is the integral of v dy round the polygon by that of x dy.
+    /// Only the latter, the area, depends on the view.
+    #[inline]
+    pub fn add<'a>(
         &mut self,
-        polygon: &Polygon,
-        eyes: [Eye; EYES],
-        formats: &Formats,
+        seen: [bool; EYES],
+        corners: impl Iterator<Item = &'a Vertex> + Clone,
         values: impl Fn(&Vertex) -> [T; VALUES],
-    ) -> [[T; VALUES]; EYES] {
+    ) {
         let number = self.faces.len() as u32;
-        let mut areas = [T::of(0.0); EYES];
-        let mut moments = [T::of(0.0); VALUES];
-        let real = |n: i32| T::of(f64::from(n));
-        let mut from = &polygon.vertices[polygon.vertices.len() - 1];
-        let mut from_values = values(from);
-        for to in &polygon.vertices {
-            let to_values = values(to);
-            let fall = real(to.y[0] - from.y[0]);
-            for (area, eye) in areas.iter_mut().zip(eyes) {
-                *area += real(from.x[eye as usize] + to.x[eye as usize]) * fall;
+        let mut slopes = [[T::of(0.0); VALUES]; EYES];
+        if let Some(last) = corners.clone().last().filter(|_| seen.contains(&true)) {
+            let mut areas = [T::of(0.0); EYES];
+            let mut moments = [T::of(0.0); VALUES];
+            let mut from = (last, values(last));
+            for corner in corners {
+                let to = (corner, values(corner));
+                self.side(number, from, to, &mut areas, &mut moments);
+                from = to;
             }
-            for k in 0..VALUES {
-                moments[k] += (from_values[k] + to_values[k]) * fall;
-            }
-            let ends = if from.y[0] <= to.y[0] {
-                [(from, from_values), (to, to_values)]
-            } else {
-                [(to, to_values), (from, from_values)]
-            };
-            if let Some(on) = Edge::new(ends[0].0, ends[1].0, eyes, 0, formats) {
-                self.insert(on, number, ends.map(|(_, values)| values));
-            }
-            (from, from_values) = (to, to_values);
-        }
-        areas.map(|area| {
+            let one = T::of(self.formats.one_pixel() as f64);
             // Without an area there is no pixel either.
-            let scale = T::of(formats.one_pixel() as f64) / area;
-            moments.map(|moment| moment * scale)
-        })
+            slopes = areas.map(|area| {
+                let scale = one / area;
+                moments.map(|moment| moment * scale)
+            });
+        }
+        self.faces.push(Face { seen, sides: [NONE; 2], slopes });
+    }
+
+    /// Adds one side of a polygon to its integrals and to the table.
+    #[inline]
+    fn side(
+        &mut self,
+        polygon: u32,
+        from: (&Vertex, [T; VALUES]),
+        to: (&Vertex, [T; VALUES]),
+        areas: &mut [T; EYES],
+        moments: &mut [T; VALUES],
+    ) {
+        let real = |n: i32| T::of(f64::from(n));
+        let fall = real(to.0.y[0] - from.0.y[0]);
+        for (area, eye) in areas.iter_mut().zip(self.eyes) {
+            *area += real(from.0.x[eye as usize] + to.0.x[eye as usize]) * fall;
+        }
+        for (k, moment) in moments.iter_mut().enumerate() {
+            *moment += (from.1[k] + to.1[k]) * fall;
+        }
+        let (upper, lower) = if from.0.y[0] <= to.0.y[0] { (from, to) } else { (to, from) };
+        if let Some(on) = Edge::new(upper.0, lower.0, self.eyes, 0, &self.formats) {
+            self.insert(on, polygon, [upper.1, lower.1]);
+        }
     }
 
     fn insert(
@@ -154,7 +146,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
     /// Adds the edges that begin on a row: in the place of one that has ended, or the first two of
     /// a polygon.
     pub fn enter(&mut self, row: i32, meter: &mut impl Meter) {
-        let Table { entries, buckets, faces, active } = self;
+        let Table { entries, buckets, faces, active, .. } = self;
         let mut next = buckets[row as usize];
         while let Some(entry) = entries.get(next as usize) {
             let sides = &mut faces[entry.polygon as usize].sides;
