@@ -14,6 +14,8 @@ use std::path::Path;
 use thiserror::Error;
 use wheatstone_golden::picture::WriteError;
 use wheatstone_golden::scene::SceneError;
+use wheatstone_golden::visibility::renderer::RendererError;
+use wheatstone_golden::visibility::VisibilityError;
 
 /// An experiment that `wheatstone reproduce` can run.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +29,11 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order they are run.
-pub const EXPERIMENTS: &[Experiment] = &[];
+pub const EXPERIMENTS: &[Experiment] = &[Experiment {
+    name: "village",
+    description: "hidden surfaces for both views at once: BSP/z-buffer, scan line, village",
+    run: village::run,
+}];
 
 /// Why an experiment could not be finished.
 #[derive(Debug, Error)]
@@ -35,6 +41,12 @@ pub enum StudyError {
     /// A scene cannot be drawn.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A scene is not for the simple renderer.
+    #[error(transparent)]
+    Renderer(#[from] RendererError),
+    /// Hidden surfaces of a scene cannot be resolved for both views at once.
+    #[error(transparent)]
+    Visibility(#[from] VisibilityError),
     /// A picture, a plot or a table could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
