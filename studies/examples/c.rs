@@ -12,11 +12,18 @@ use wheatstone_golden::{
 fn main() {
     let a: Vec<String> = std::env::args().collect();
     let w: u32 = a[1].parse().unwrap();
-    let s = scene::open(&a[2], Some([w, w * 3 / 4]), None).unwrap();
+    let s = if let Some(n) = a[2].strip_prefix("boxes") {
+        wheatstone_studies::village::boxes::boxes(n.parse().unwrap(), w, w * 3 / 4).unwrap()
+    } else {
+        scene::open(&a[2], Some([w, w * 3 / 4]), None).unwrap()
+    };
     let g = s
         .geometry(
             &Formats::new(&Config::DEFAULT),
-            &scene::Options { cull: Cull::Back, ..Default::default() },
+            &scene::Options {
+                cull: if a.len() > 4 { Cull::None } else { Cull::Back },
+                ..Default::default()
+            },
         )
         .unwrap();
     let job = Job {
@@ -34,7 +41,7 @@ fn main() {
     let [mut x, mut y] = [[f.items()], [f.items()]];
     let mut j = [f.items(), f.items()];
     let mut z = bsp::ZBuffer::default();
-    for _ in 0..3000 {
+    for _ in 0..20000 {
         match &a[3][..] {
             "bsp1" => {
                 bsp::draw(&f, &tree, [Eye::Left], &mut x, &mut z, &mut Unmetered);

@@ -5,7 +5,7 @@
 //! one run, and their work is counted. Counts are held to the printed saving; time is held to be
 //! saved at all, and the printed percentage is shown beside it.
 
-mod boxes;
+pub mod boxes;
 
 use crate::report::{Check, Report, Row, Table};
 use crate::timing::ratio;

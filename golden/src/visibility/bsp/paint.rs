@@ -1,5 +1,6 @@
 //! Traversals that paint.
 
+use super::piece::Region;
 use super::scan::Scan;
 use super::{Node, Part, Tree, NONE};
 use crate::formats::{Eye, FRACTION_BITS};
@@ -85,9 +86,7 @@ pub fn draw<const EYES: usize>(
     let mut painter = Painter {
         surfaces,
         eyes,
-        items,
-        z_buffer,
-        meter,
+        canvas: Canvas { items, z_buffer, meter },
         contested: false,
         scan: Scan::new(),
         scan_one: Scan::new(),
@@ -103,7 +102,7 @@ pub fn draw<const EYES: usize>(
                 let node = &tree.nodes[number as usize];
                 if let (Some(part), false) = (&node.contested, EYES == 1 || painter.contested) {
                     painter.contested = true;
-                    painter.z_buffer.clear(&painter.items[0], part);
+                    painter.canvas.z_buffer.clear(&painter.canvas.items[0], part);
                     tasks.push(Task::Agree);
                 }
                 let [low, high] = node.sides;
@@ -121,9 +120,7 @@ pub fn draw<const EYES: usize>(
 struct Painter<'a, M, const EYES: usize> {
     surfaces: &'a Surfaces<'a>,
     eyes: [Eye; EYES],
-    items: &'a mut [Items; EYES],
-    z_buffer: &'a mut ZBuffer,
-    meter: &'a mut M,
+    canvas: Canvas<'a, M, EYES>,
     /// Whether all but the last view are to be resolved by depth.
     contested: bool,
     scan: Scan<EYES>,
@@ -141,48 +138,71 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
     /// Paints the polygon of a node in all views at once. If not all eyes see this piece of it, it
     /// is converted for the one that does.
     fn node(&mut self, node: &Node) {
-        let Painter { surfaces, eyes, items, z_buffer, meter, contested, scan, scan_one } = self;
+        let Painter { surfaces, eyes, canvas, contested, scan, scan_one } = self;
         let regions = eyes.map(|eye| node.views[eye as usize].as_ref());
         let seen = regions.iter().flatten().count();
         if seen == 0 {
             return;
         }
-        meter.note(|work| work.polygons += seen as u64);
+        canvas.meter.note(|work| work.polygons += seen as u64);
         let rows = regions.iter().flatten().fold(i32::MAX..i32::MIN, |rows, region| {
             rows.start.min(region.rows.start)..rows.end.max(region.rows.end)
         });
         let polygon = &surfaces.opaque[node.polygon as usize];
         let formats = &surfaces.formats;
         let depth = node.depth.as_ref().filter(|_| *contested);
-        let width = surfaces.width as i32;
-        let mut draw = |view: usize, row: i32, span: [i32; 2]| {
-            let Some(region) = regions[view] else { return };
-            let [first, end] = region.within(row, span, width);
-            if first >= end {
-                return;
-            }
-            meter.note(|work| work.pixels_written += (end - first) as u64);
-            match depth {
-                Some(depth) if view + 1 < EYES => {
-                    meter.note(|work| work.depth_tests += (end - first) as u64);
-                    z_buffer.draw(&mut items[view], row, first..end, depth, node.polygon);
-                }
-                _ => fill(&mut items[view].row(row)[first as usize..end as usize], node.polygon),
-            }
-        };
         let converted = if seen == EYES {
             scan.rows(polygon, *eyes, &rows, formats, |row, spans| {
-                (0..EYES).for_each(|view| draw(view, row, spans[view]));
+                for view in 0..EYES {
+                    let depth = depth.filter(|_| view + 1 < EYES);
+                    canvas.draw(node.polygon, view, regions[view], row, spans[view], depth);
+                }
             })
         } else {
             let view = usize::from(regions[0].is_none());
-            let draw = |row: i32, [span]: [[i32; 2]; 1]| draw(view, row, span);
-            scan_one.rows(polygon, [eyes[view]], &rows, formats, draw)
+            let depth = depth.filter(|_| view + 1 < EYES);
+            scan_one.rows(polygon, [eyes[view]], &rows, formats, |row, [span]| {
+                canvas.draw(node.polygon, view, regions[view], row, span, depth);
+            })
         };
-        meter.note(|work| {
+        canvas.meter.note(|work| {
             work.edge_updates += 2 * converted as u64;
             work.interpolations += (2 * seen * converted) as u64;
         });
+    }
+}
+
+/// What is drawn on.
+struct Canvas<'a, M, const EYES: usize> {
+    items: &'a mut [Items; EYES],
+    z_buffer: &'a mut ZBuffer,
+    meter: &'a mut M,
+}
+
+impl<M: Meter, const EYES: usize> Canvas<'_, M, EYES> {
+    /// Draws what a view has of a polygon's span, by depth if there is one. Called for every row.
+    #[inline(always)]
+    fn draw(
+        &mut self,
+        polygon: u32,
+        view: usize,
+        region: Option<&Region>,
+        row: i32,
+        span: [i32; 2],
+        depth: Option<&Linear>,
+    ) {
+        let items = &mut self.items[view];
+        let Some(region) = region else { return };
+        let [first, end] = region.within(row, span, items.width as i32);
+        if first >= end {
+            return;
+        }
+        self.meter.note(|work| work.pixels_written += (end - first) as u64);
+        let Some(depth) = depth else {
+            return fill(&mut items.row(row)[first as usize..end as usize], polygon);
+        };
+        self.meter.note(|work| work.depth_tests += (end - first) as u64);
+        self.z_buffer.draw(items, row, first..end, depth, polygon);
     }
 }
 
@@ -190,7 +210,7 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
 /// which the last one may lie over another.
 #[inline]
 fn fill(span: &mut [u32], polygon: u32) {
-    const BLOCK: usize = 8;
+    const BLOCK: usize = 4;
     let block = [polygon; BLOCK];
     let length = span.len();
     if length < BLOCK {

@@ -37,10 +37,10 @@ impl<const EYES: usize> Scan<EYES> {
             }
         }
         for n in 1..self.edges.len() {
-            let earlier = |k: &usize| self.edges[*k - 1].first > self.edges[n].first;
-            let place = (1..=n).rev().take_while(earlier).last();
-            if let Some(place) = place {
-                self.edges[place - 1..=n].rotate_right(1);
+            let mut k = n;
+            while k > 0 && self.edges[k - 1].first > self.edges[k].first {
+                self.edges.swap(k - 1, k);
+                k -= 1;
             }
         }
     }
