@@ -44,7 +44,7 @@ pub fn random_triangles(seed: u64, count: usize, size: [u32; 2]) -> Vec<Polygon>
     let mut triangles = Triangles::new(seed, formats, size[0], size[1]);
     let mut polygon = |n: usize| {
         let mut polygon = triangles.triangle(Class::ALL[n % Class::ALL.len()]);
-        if n % 4 == 0 {
+        if n.is_multiple_of(4) {
             let middle = polygon.vertices[0].x[0] + 300;
             polygon.vertices.iter_mut().for_each(|v| v.x[1] = 2 * middle - v.x[0]);
         }

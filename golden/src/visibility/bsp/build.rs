@@ -54,12 +54,9 @@ impl<'a> Builder<'a> {
                 self.nodes[parent as usize].sides[side] = number;
             }
             let children = self.divide(cell.pieces);
-            cells.extend(
-                [0, 1]
-                    .into_iter()
-                    .zip(children)
-                    .map(|(side, pieces)| Cell { pieces, parent: Some((number, side)) }),
-            );
+            for (side, pieces) in children.into_iter().enumerate() {
+                cells.push(Cell { pieces, parent: Some((number, side)) });
+            }
         }
         self.contest();
         Tree { nodes: self.nodes }
@@ -70,15 +67,7 @@ impl<'a> Builder<'a> {
         let present = [0, 1].map(|view| pieces.iter().any(|piece| piece.views[view].is_some()));
         let Some(root) = self.root(&pieces, present) else {
             // No plane divides both views, so each has a tree of its own.
-            let node = Node {
-                polygon: NONE,
-                views: [None, None],
-                far: [Ordering::Equal; 2],
-                contested: None,
-                depth: None,
-                sides: [NONE; 2],
-            };
-            self.nodes.push(node);
+            self.nodes.push(Node::new(NONE, [None, None], [Ordering::Equal; 2]));
             return apart(pieces);
         };
         let Piece { polygon, views } = pieces.swap_remove(root);
@@ -87,14 +76,7 @@ impl<'a> Builder<'a> {
             Some(plane) if present[view] => plane.far_side(),
             _ => Ordering::Equal,
         });
-        self.nodes.push(Node {
-            polygon,
-            views,
-            far,
-            contested: None,
-            depth: None,
-            sides: [NONE; 2],
-        });
+        self.nodes.push(Node::new(polygon, views, far));
         let mut sides = [Vec::new(), Vec::new()];
         for piece in pieces {
             let parts = self.cut(piece, polygon);

@@ -6,10 +6,10 @@
 //! are on different sides of. So one traversal, in the right eye's order, paints both views: the
 //! right one by order alone, the left one by order too, but below such planes by a z-buffer.
 //!
-//! The tree is made of what is drawn: polygons in screen space, their corners snapped, in which an
-//! eye is infinitely far before the screen and on the far side of a plane whose depth grows. Which
-//! side of a plane a polygon is on must hold in both views, each in its own integers; a polygon
-//! of which it does not is cut in one view or in both. No rounding decides what hides what.
+//! The tree is made of what is drawn: polygons in screen space, their corners snapped. There an eye
+//! looks along the axis of depth, so that the far side of a plane is the one of greater depth. What
+//! is said to be on one side of a plane is so in both views, each in its own integers; otherwise it
+//! is cut, in one view or in both. No rounding decides what hides what.
 
 mod build;
 mod paint;
@@ -54,6 +54,13 @@ struct Node {
     sides: [u32; 2],
 }
 
+impl Node {
+    /// A node with nothing below it.
+    fn new(polygon: u32, views: [Option<Region>; 2], far: [Ordering; 2]) -> Node {
+        Node { polygon, views, contested: None, depth: None, far, sides: [NONE; 2] }
+    }
+}
+
 /// A rectangle of pixels.
 #[derive(Clone, Debug)]
 struct Part {
@@ -70,15 +77,19 @@ impl Part {
 
     /// The smallest part that has both.
     fn with(&self, other: &Part) -> Part {
-        let join = |a: &Range<i32>, b: &Range<i32>| a.start.min(b.start)..a.end.max(b.end);
-        Part { columns: join(&self.columns, &other.columns), rows: join(&self.rows, &other.rows) }
+        Part { columns: hull(&self.columns, &other.columns), rows: hull(&self.rows, &other.rows) }
     }
+}
+
+/// The smallest range that has both.
+fn hull(a: &Range<i32>, b: &Range<i32>) -> Range<i32> {
+    a.start.min(b.start)..a.end.max(b.end)
 }
 
 impl Tree {
     /// Builds the tree.
     ///
-    /// The root of each cell is, of up to 8 evenly spaced polygons, the one that cuts fewest of a
+    /// The root of each cell is, of up to 16 evenly spaced polygons, the one that cuts fewest of a
     /// sample of 48 others and divides them most evenly; planes that pass between the eyes come
     /// last.
     pub fn new(surfaces: &Surfaces) -> Tree {

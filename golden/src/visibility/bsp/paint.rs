@@ -2,7 +2,7 @@
 
 use super::piece::Region;
 use super::scan::Scan;
-use super::{Node, Part, Tree, NONE};
+use super::{hull, Node, Part, Tree, NONE};
 use crate::formats::{Eye, FRACTION_BITS};
 use crate::setup::Linear;
 use crate::visibility::depths::keep_nearer;
@@ -140,14 +140,10 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
     fn node(&mut self, node: &Node) {
         let Painter { surfaces, eyes, canvas, contested, scan, scan_one } = self;
         let regions = eyes.map(|eye| node.views[eye as usize].as_ref());
+        let all_rows = regions.iter().flatten().map(|region| region.rows.clone());
+        let Some(rows) = all_rows.reduce(|a, b| hull(&a, &b)) else { return };
         let seen = regions.iter().flatten().count();
-        if seen == 0 {
-            return;
-        }
         canvas.meter.note(|work| work.polygons += seen as u64);
-        let rows = regions.iter().flatten().fold(i32::MAX..i32::MIN, |rows, region| {
-            rows.start.min(region.rows.start)..rows.end.max(region.rows.end)
-        });
         let polygon = &surfaces.opaque[node.polygon as usize];
         let formats = &surfaces.formats;
         let depth = node.depth.as_ref().filter(|_| *contested);

@@ -66,9 +66,12 @@ impl Window {
             return None;
         }
         let all = Region { rows: 0..self.height as i32, limits: Vec::new() };
-        let mut rows = i32::MAX..i32::MIN;
-        self.pixels(polygon, &all, |row, _| rows = rows.start.min(row)..row + 1);
-        (!rows.is_empty()).then_some(Region { rows, ..all })
+        let mut rows: Option<Range<i32>> = None;
+        self.pixels(polygon, &all, |row, _| {
+            let first = rows.as_ref().map_or(row, |rows| rows.start);
+            rows = Some(first..row + 1);
+        });
+        rows.map(|rows| Region { rows, ..all })
     }
 
     /// Calls `visit` for each row of a region with the first pixel and the one past the last.
@@ -118,7 +121,7 @@ impl Window {
 
     /// The negative and the other part of a region.
     pub fn cut(&self, polygon: &Polygon, region: &Region, side: &Side) -> [Option<Region>; 2] {
-        let mut parts = [(); 2].map(|()| Region { rows: i32::MAX..i32::MIN, limits: Vec::new() });
+        let mut parts = [(); 2].map(|()| Region { rows: 0..0, limits: Vec::new() });
         self.pixels(polygon, region, |row, [first, end]| {
             let [left, right] = region.limit(row);
             let columns = side.columns(row, self.formats.subpixel_bits);
