@@ -155,33 +155,47 @@ mod tests {
         assert!(on_centres > 1000, "only {on_centres} crossings at centres");
     }
 
-    /// Crossings as near to a centre as they can be without being there.
+    /// n with n·a = 1 modulo m, by Euclid's algorithm.
+    fn inverse(a: i64, m: i64) -> Option<i64> {
+        let (mut rest, mut factor) = ((m, a.rem_euclid(m)), (0, 1));
+        while rest.1 != 0 {
+            let quotient = rest.0 / rest.1;
+            rest = (rest.1, rest.0 - quotient * rest.1);
+            factor = (factor.1, factor.0 - quotient * factor.1);
+        }
+        (rest.0 == 1).then(|| factor.0.rem_euclid(m))
+    }
+
+    /// Crossings that miss a centre by the least possible, 1/(256·rise), on either side, and one
+    /// that does not miss it.
     #[test]
     fn near_misses_are_told_apart() {
         let formats = Formats::new(&Config::DEFAULT);
-        let rise = (4096 * 256) - 1;
-        for run in [1, 2, rise - 1, rise + 1, -1] {
-            for start in -3..=3 {
-                let upper =
-                    Vertex { x: [128 + start, 128], y: [-1024 * 256; 2], ..Vertex::default() };
-                let lower = Vertex {
-                    x: [128 + start + run, 128 + run],
-                    y: [upper.y[0] + rise; 2],
-                    ..Vertex::default()
-                };
-                let made = Edge::<2>::new::<f64>(&upper, &lower, Eye::BOTH, 0, &formats);
-                let (mut edge, _) = made.expect("it crosses rows");
-                for row in 0..2048 {
-                    let down = i64::from(256 * row + 128 - upper.y[0]);
-                    for eye in [0, 1] {
-                        let x =
-                            i64::from(upper.x[eye] - 128) * i64::from(rise) + i64::from(run) * down;
-                        let cell = -((-x).div_euclid(256 * i64::from(rise)));
-                        assert_eq!(i64::from(edge.cell(eye)), cell, "{run} {start} {row}");
-                    }
-                    edge.step();
+        let mut checked = 0;
+        for rise in [(1 << 20) - 1, (1 << 20) - 3, 786_431, 524_289] {
+            for row in [0, 1, 2, 3, 500, 1000, 1500, 2046, 2047] {
+                for miss in [-1, 0, 1] {
+                    // start·rise + run·down = miss modulo 256·rise, where down is 128·(2·row + 1).
+                    let start = -miss * inverse(-rise, 128).expect("rise is odd");
+                    let Some(odd) = inverse(2 * row + 1, 2 * rise) else { continue };
+                    let run = ((miss - start * rise) / 128 * odd).rem_euclid(2 * rise);
+                    let run = if run > rise { run - 2 * rise } else { run };
+                    let corner = |x: i64, y: i64| {
+                        let (x, y) = (x as i32 + 128, y as i32);
+                        Vertex { x: [x; 2], y: [y; 2], ..Vertex::default() }
+                    };
+                    let (upper, lower) = (corner(start, 0), corner(start + run, rise));
+                    let made = Edge::<1>::new::<f64>(&upper, &lower, [Eye::Left], 0, &formats);
+                    let (mut edge, _) = made.expect("it crosses rows");
+                    (0..row).for_each(|_| edge.step());
+                    let travel = start * rise + run * (256 * row + 128);
+                    assert_eq!((travel - miss).rem_euclid(256 * rise), 0);
+                    let cell = -((-travel).div_euclid(256 * rise));
+                    assert_eq!(i64::from(edge.cell(0)), cell, "{rise} {row} {miss}");
+                    checked += 1;
                 }
             }
         }
+        assert!(checked > 60, "{checked}");
     }
 }
