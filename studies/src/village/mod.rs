@@ -114,56 +114,74 @@ fn trees() -> Result<Table, StudyError> {
     let mut rows = Vec::new();
     for polygons in [144, 480, 960] {
         let scene = boxes(polygons / TRIANGLES, SIZE[0], SIZE[1])?;
-        let geometry = geometry(&scene, Cull::None)?;
-        let surfaces = surfaces(&geometry)?;
+        let found = Traversals::of(&geometry(&scene, Cull::None)?)?;
+        let name = format!("{polygons} polygons");
+        rows.extend(printed.time(&name, found.ratio));
+        let (twice, once) = (found.twice.edge_updates, found.once.edge_updates);
+        rows.push(printed.count(&format!("{name}: steps of edges saved"), twice, once));
+        let what = format!("{name}: pieces a polygon");
+        rows.push(Row::new(what, found.pieces, 2, Check::Trend));
+        rows.push(found.tests(&name));
+        rows.push(differing(&format!("{name}, right view"), found.different[1]));
+        // The left one may show another polygon of the same depth.
+        let what = format!("{name}, left view: pixels that differ");
+        rows.push(Row::new(what, found.different[0] as f64, 0, Check::AtMost(5.0)));
+    }
+    // The other extreme: most planes pass between the eyes.
+    let scene = scene::open("exclusive", Some(SIZE), None)?;
+    let found = Traversals::of(&geometry(&scene, Cull::None)?)?;
+    rows.push(found.tests("exclusive"));
+    rows.push(Row::new("exclusive: ratio of times", found.ratio, 2, Check::Trend));
+    let title = format!("BSP/z-buffer compared to BSP (Table 1), views of {}", size(SIZE));
+    Ok(Table { title, rows })
+}
+
+/// Two traversals of a tree beside one.
+struct Traversals {
+    /// Work of two traversals, and of one.
+    twice: Work,
+    once: Work,
+    /// Time of two by that of one.
+    ratio: f64,
+    /// Pieces a polygon.
+    pieces: f64,
+    /// Pixels that differ in each view.
+    different: [usize; 2],
+}
+
+impl Traversals {
+    fn of(geometry: &Geometry) -> Result<Traversals, StudyError> {
+        let surfaces = surfaces(geometry)?;
         let tree = Tree::new(&surfaces);
         let (mut twice, mut once) = (Work::default(), Work::default());
         let alone = Eye::BOTH.map(|eye| bsp::one(&surfaces, &tree, eye, &mut twice));
         let both = bsp::both(&surfaces, &tree, &mut once);
-        let [left, right] = [0, 1].map(|n: usize| different(&alone[n].item, &both[n].item));
-        let [mut a, mut b] = [(); 2].map(|()| [surfaces.items()]);
+        let [mut left, mut right] = [(); 2].map(|()| ([surfaces.items()], ZBuffer::default()));
         let (mut items, mut z_buffer) = ([surfaces.items(), surfaces.items()], ZBuffer::default());
         let time = ratio(
             ROUNDS,
             || {
-                bsp::draw(
-                    &surfaces,
-                    &tree,
-                    [Eye::Left],
-                    &mut a,
-                    &mut ZBuffer::default(),
-                    &mut Unmetered,
-                );
-                bsp::draw(
-                    &surfaces,
-                    &tree,
-                    [Eye::Right],
-                    &mut b,
-                    &mut ZBuffer::default(),
-                    &mut Unmetered,
-                );
+                for (eye, (items, unused)) in [(Eye::Left, &mut left), (Eye::Right, &mut right)] {
+                    bsp::draw(&surfaces, &tree, [eye], items, unused, &mut Unmetered);
+                }
             },
             || bsp::draw(&surfaces, &tree, Eye::BOTH, &mut items, &mut z_buffer, &mut Unmetered),
         );
-        let name = format!("{polygons} polygons");
-        rows.extend(printed.time(&name, time.median));
-        rows.push(printed.count(
-            &format!("{name}: steps of edges saved"),
-            twice.edge_updates,
-            once.edge_updates,
-        ));
-        let pieces = tree.pieces() as f64 / surfaces.opaque.len() as f64;
-        rows.push(Row::new(format!("{name}: pieces a polygon"), pieces, 2, Check::Trend));
-        let tests = 100.0 * once.depth_tests as f64 / once.pixels_written as f64;
-        let what = format!("{name}: pixels with a depth test");
-        rows.push(Row::new(what, tests, 2, Check::Trend).unit("%"));
-        rows.push(differing(&format!("{name}, right view"), right));
-        // The left one may show another polygon of the same depth.
-        let what = format!("{name}, left view: pixels that differ");
-        rows.push(Row::new(what, left as f64, 0, Check::AtMost(5.0)));
+        Ok(Traversals {
+            twice,
+            once,
+            ratio: time.median,
+            pieces: tree.pieces() as f64 / surfaces.opaque.len() as f64,
+            different: [0, 1].map(|n: usize| different(&alone[n].item, &both[n].item)),
+        })
     }
-    let title = format!("BSP/z-buffer compared to BSP (Table 1), views of {}", size(SIZE));
-    Ok(Table { title, rows })
+
+    /// A row of how much depth decides.
+    fn tests(&self, name: &str) -> Row {
+        let tests = 100.0 * self.once.depth_tests as f64 / self.once.pixels_written as f64;
+        let what = format!("{name}: pixels with a depth test");
+        Row::new(what, tests, 2, Check::Trend).unit("%")
+    }
 }
 
 /// Scan-line hidden surfaces, flat and with Gouraud shading.
