@@ -1,5 +1,7 @@
 //! Shared helpers of the tests; the tests themselves are the files beside this one.
 
+pub mod visibility;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -162,6 +162,13 @@ fn each_built_in_scene_shows_what_it_says() {
     assert!(room.polygons.iter().any(|p| p.vertices[0].colour[0].0[3] < 255));
     assert_eq!(disparity(&of("ramp")), (-32, 32));
 
+    // Eight buildings with their grounds; nothing is cut.
+    let village = of("village");
+    assert_eq!(village.counts.triangles, 1_109);
+    assert_eq!((village.counts.clipped, village.counts.guard_band, specular(&village)), (0, 0, 0));
+    let (before, behind) = disparity(&village);
+    assert!((-60..-5).contains(&before) && (40..80).contains(&behind), "{before} {behind}");
+
     // Ratios of area, and the panels past the limit.
     let ratios: Vec<f64> = of("ratio")
         .polygons

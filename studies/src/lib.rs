@@ -15,6 +15,7 @@ pub mod prepared;
 pub mod report;
 pub mod reproduce;
 pub mod timing;
+pub mod village;
 
 pub use report::{Check, Report, Row, Table, Verdict};
 
@@ -22,6 +23,8 @@ use std::path::Path;
 use thiserror::Error;
 use wheatstone_golden::picture::WriteError;
 use wheatstone_golden::scene::SceneError;
+use wheatstone_golden::visibility::renderer::RendererError;
+use wheatstone_golden::visibility::VisibilityError;
 
 /// An experiment that `wheatstone reproduce` can run.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +41,7 @@ pub struct Experiment {
 pub const EXPERIMENTS: &[Experiment] = &[
     filter::EXPERIMENT,
     adelson::EXPERIMENT,
+    village::EXPERIMENT,
     p_buffer::EXPERIMENT,
     opengl::EXPERIMENT,
     nasa::EXPERIMENT,
@@ -53,6 +57,12 @@ pub enum StudyError {
     /// Nothing could be drawn with OpenGL.
     #[error(transparent)]
     OpenGl(#[from] opengl::OpenGlError),
+    /// A scene is not for the simple renderer.
+    #[error(transparent)]
+    Renderer(#[from] RendererError),
+    /// Hidden surfaces of a scene cannot be resolved for both views at once.
+    #[error(transparent)]
+    Visibility(#[from] VisibilityError),
     /// A picture, a plot or a table could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -171,6 +171,27 @@ pub struct Point {
 }
 
 impl Lighting {
+    /// The lights before a surface, the directions to them and the cosines of their angles.
+    fn facing<'a>(&'a self, point: &'a Point) -> impl Iterator<Item = (&'a Light, Vec3, f64)> {
+        self.lights.iter().filter_map(|light| {
+            let towards = match light.source {
+                Source::Direction(direction) => unit(direction),
+                Source::Point(place) => unit(sub(place, point.position)),
+            };
+            let facing = dot(point.normal, towards);
+            (facing > 0.0).then_some((light, towards, facing))
+        })
+    }
+
+    /// The part of a point's colour that is the same for every viewer, channels from 0 to 1, not
+    /// clamped.
+    pub fn dull(&self, point: &Point, material: &Material) -> Vec3 {
+        let diffuse = self
+            .facing(point)
+            .fold(self.ambient, |sum, (light, _, facing)| add(sum, scale(light.colour, facing)));
+        add(material.emission, times(point.base, diffuse))
+    }
+
     /// Colours of a point for each of two eyes, channels from 0 to 255, not clamped.
     pub fn shade(
         &self,
@@ -181,27 +202,16 @@ impl Lighting {
     ) -> [Vec3; 2] {
         let normal = point.normal;
         let views = eyes.map(|eye| unit(sub(eye, point.position)));
-        let mut diffuse = self.ambient;
         let mut specular = [[0.0; 3]; 2];
-        let glossy = material.specular != [0.0; 3];
-        for light in &self.lights {
-            let towards = match light.source {
-                Source::Direction(direction) => unit(direction),
-                Source::Point(place) => unit(sub(place, point.position)),
-            };
-            let facing = dot(normal, towards);
-            if facing <= 0.0 {
-                continue;
-            }
-            diffuse = add(diffuse, scale(light.colour, facing));
-            if glossy {
+        if material.specular != [0.0; 3] {
+            for (light, towards, _) in self.facing(point) {
                 for (sum, view) in specular.iter_mut().zip(views) {
                     let half = dot(normal, unit(add(towards, view))).max(0.0);
                     *sum = add(*sum, scale(light.colour, power(half, material.exponent)));
                 }
             }
         }
-        let dull = add(material.emission, times(point.base, diffuse));
+        let dull = self.dull(point, material);
         [0, 1].map(|eye| {
             let lit = add(dull, times(material.specular, specular[eye]));
             let colour = if material.reflection == [0.0; 3] {

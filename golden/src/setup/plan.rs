@@ -3,7 +3,7 @@
 use super::edge::Outline;
 use super::linear::{Linear, Plane};
 use super::mapping::Map;
-use super::polygon::{Eyes, Polygon};
+use super::polygon::{Eyes, Polygon, Vertex};
 use super::span::{Row, View};
 use crate::config::Config;
 use crate::formats::{Eye, Formats, Rgba, FRACTION_BITS, GUARD_BITS, WIDENING_LIMIT};
@@ -145,20 +145,35 @@ pub struct Attributes {
 }
 
 impl Attributes {
-    /// The attributes of a polygon whose outline in this eye has an area.
-    pub fn new(polygon: &Polygon, eye: Eye, formats: &Formats) -> Attributes {
+    /// The three corners that the attributes of a polygon pass through; its outline in this eye
+    /// must have an area.
+    pub fn corners(polygon: &Polygon, eye: Eye) -> [Vertex; 3] {
         let outline = Outline::new(polygon, eye);
-        let points = outline.points();
-        let corners = Plane::corners(&outline);
-        let plane = Plane::new(corners.map(|k| points[k]), formats.subpixel_bits);
         // Merged corners have shifted the numbering: find the vertex of each corner again.
-        let vertices = corners.map(|k| {
-            let [x, y] = points[k];
-            let here = |v: &&super::polygon::Vertex| {
+        Plane::corners(&outline).map(|k| {
+            let [x, y] = outline.points()[k];
+            let here = |v: &&Vertex| {
                 i64::from(v.x[eye as usize]) == x && i64::from(v.y[eye as usize]) == y
             };
             polygon.vertices.iter().find(here).copied().unwrap_or_default()
-        });
+        })
+    }
+
+    fn plane(corners: &[Vertex; 3], eye: Eye, formats: &Formats) -> Plane {
+        let places = corners.map(|v| [v.x[eye as usize].into(), v.y[eye as usize].into()]);
+        Plane::new(places, formats.subpixel_bits)
+    }
+
+    /// The depth alone of a polygon whose outline in this eye has an area.
+    pub fn depth(polygon: &Polygon, eye: Eye, formats: &Formats) -> Linear {
+        let corners = Attributes::corners(polygon, eye);
+        Attributes::plane(&corners, eye, formats).through(corners.map(|v| v.depth.into()))
+    }
+
+    /// The attributes of a polygon whose outline in this eye has an area.
+    pub fn new(polygon: &Polygon, eye: Eye, formats: &Formats) -> Attributes {
+        let vertices = Attributes::corners(polygon, eye);
+        let plane = Attributes::plane(&vertices, eye, formats);
         let channel = |n: usize| {
             let Rgba(first) = vertices[0].colour[eye as usize];
             if polygon.vertices.len() > 3 {

@@ -1,12 +1,13 @@
 //! The built-in scenes.
 //!
-//! `teapot` and `room` are pictures to look at, in centimetres in front of a screen of at least
-//! 32 × 24 cm, as are the two of perception; `atoms` is a height field, in inches; `office` is in
-//! metres. The others are small and each show one thing; their lengths are pixels of a
+//! `teapot`, `room` and `village` are pictures to look at, in centimetres in front of a screen of at
+//! least 32 × 24 cm, as are the two of perception; `atoms` is a height field, in inches; `office` is
+//! in metres. The others are small and each show one thing; their lengths are pixels of a
 //! 640 × 480 picture, scaled with the size, except in `ties`, where they are pixels at any size.
 
 mod diagnostic;
 mod edges;
+mod mason;
 pub mod office;
 mod paint;
 mod perception;
@@ -14,6 +15,7 @@ mod quads;
 mod room;
 mod shapes;
 mod teapot;
+mod village;
 
 use super::error::{check_size, SceneError, SIZE_LIMIT};
 use super::place::Placement;
@@ -35,7 +37,7 @@ pub struct Builtin {
 }
 
 /// All built-in scenes.
-pub const SCENES: [Builtin; 13] = [
+pub const SCENES: [Builtin; 14] = [
     Builtin {
         name: "teapot",
         description: "the Utah teapot, from its 32 patches: 6,320 smooth, glossy triangles",
@@ -46,6 +48,12 @@ pub const SCENES: [Builtin; 13] = [
         description:
             "a textured room with glossy and mirroring things before and behind the screen",
         build: room::scene,
+    },
+    Builtin {
+        name: "village",
+        description:
+            "a model village of eight buildings, a church among them: about 1,100 triangles",
+        build: village::scene,
     },
     Builtin {
         name: ATOMS,

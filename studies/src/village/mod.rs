@@ -1,0 +1,335 @@
+//! Adelson et al. 1991, the last rows of Table 1: BSP tree and one z-buffer, scan line, and the
+//! simple renderer on a village.
+//!
+//! What the authors print was measured on their machine. Here both ways are timed side by side in
+//! one run, and their work is counted. Counts are held to the printed saving; time is held to be
+//! saved at all, and the printed percentage is shown beside it.
+
+pub mod boxes;
+
+use crate::report::{Check, Report, Row, Table};
+use crate::timing::ratio;
+use crate::StudyError;
+use boxes::{boxes, TRIANGLES};
+use std::path::Path;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::formats::{Eye, Formats};
+use wheatstone_golden::picture::{side_by_side, write_png};
+use wheatstone_golden::scene::{self, Cull, Geometry, Scene};
+use wheatstone_golden::setup::Options;
+use wheatstone_golden::stereo::Job;
+use wheatstone_golden::texture::Lookup;
+use wheatstone_golden::visibility::bsp::{self, Tree, ZBuffer};
+use wheatstone_golden::visibility::renderer::Model;
+use wheatstone_golden::visibility::{scan_line, Surfaces};
+use wheatstone_golden::work::{counted, Counted, Unmetered, Work};
+
+/// Size of the views. The authors do not tell theirs; the more pixels, the less is saved.
+const SIZE: [u32; 2] = [320, 240];
+/// Size of the views that are also timed.
+const LARGE: [u32; 2] = [640, 480];
+/// Times that each way is timed.
+const ROUNDS: usize = 61;
+
+const SPEED_UP: &str =
+    "column III prints 1 + II; by its own definition it is 1/(1 - I), see docs/errata.md";
+
+/// The experiment.
+pub const EXPERIMENT: Experiment = Experiment {
+    name: "village",
+    description: "hidden surfaces for both views at once: BSP/z-buffer, scan line, village",
+    run,
+};
+
+/// The experiment.
+fn run(folder: &Path) -> Result<Report, StudyError> {
+    let village = scene::open("village", Some(SIZE), None)?;
+    let model = Model::new(&village, &formats())?;
+    let mut views = model.views();
+    model.draw::<f64, 2>(Eye::BOTH, &mut views, &mut Unmetered);
+    let file = folder.join("village.png");
+    write_png(&file, &side_by_side(&views.picture(0), &views.picture(1)))?;
+    Ok(Report {
+        experiment: "village".into(),
+        publication: "Adelson et al. 1991".into(),
+        tables: vec![trees()?, scan_lines(&village, &model)?, renderer(&model)?],
+        files: vec![file],
+    })
+}
+
+fn formats() -> Formats {
+    Formats::new(&Config::DEFAULT)
+}
+
+/// The polygons of a scene; back faces have been removed beforehand, as the authors do it.
+fn geometry(scene: &Scene, cull: Cull) -> Result<Geometry, StudyError> {
+    Ok(scene.geometry(&formats(), &scene::Options { cull, ..scene::Options::default() })?)
+}
+
+fn surfaces(geometry: &Geometry) -> Result<Surfaces<'_>, StudyError> {
+    let job = Job {
+        config: Config::DEFAULT,
+        options: Options::new(&Config::DEFAULT),
+        width: geometry.width,
+        height: geometry.height,
+        background: geometry.background.rgb(),
+        polygons: &geometry.polygons,
+        textures: &geometry.textures,
+        lookup: Lookup::Nearest,
+    };
+    Ok(Surfaces::new(&job)?)
+}
+
+/// What the authors print of an algorithm: percentage saved and speed-up.
+#[derive(Clone, Copy)]
+struct Printed {
+    saved: f64,
+    speed_up: f64,
+}
+
+impl Printed {
+    /// Rows of the time of two views one by one by that of both at once, given as a ratio. With
+    /// nothing saved it is one.
+    fn time(self, what: &str, ratio: f64) -> [Row; 2] {
+        let saved = 100.0 * (1.0 - 1.0 / ratio);
+        let speed_up = 1.0 / (1.0 - self.saved / 100.0);
+        [
+            Row::new(format!("{what}: time saved"), saved, 1, Check::Trend)
+                .printed(self.saved)
+                .unit("%"),
+            Row::new(format!("{what}: speed-up"), ratio, 2, Check::AtLeast(1.0))
+                .printed(self.speed_up)
+                .corrected(speed_up, SPEED_UP),
+        ]
+    }
+
+    /// A row of a count that has to be saved at least as the authors' time.
+    fn count(self, what: &str, twice: u64, both: u64) -> Row {
+        let saved = 100.0 * (1.0 - both as f64 / twice as f64);
+        Row::new(what, saved, 1, Check::AtLeast(self.saved)).printed(self.saved).unit("%")
+    }
+}
+
+/// A row that is 0 where both ways see the same.
+fn differing(what: &str, pixels: usize) -> Row {
+    Row::new(format!("{what}: pixels that differ"), pixels as f64, 0, Check::AtMost(0.0))
+}
+
+/// BSP tree, two traversals, against BSP tree and one z-buffer, one traversal.
+fn trees() -> Result<Table, StudyError> {
+    let printed = Printed { saved: 17.0, speed_up: 1.33 };
+    let mut rows = Vec::new();
+    for polygons in [144, 480, 960] {
+        let scene = boxes(polygons / TRIANGLES, SIZE[0], SIZE[1])?;
+        let found = Traversals::of(&geometry(&scene, Cull::None)?)?;
+        let name = format!("{polygons} polygons");
+        rows.extend(printed.time(&name, found.ratio));
+        let (twice, once) = (found.twice.edge_updates, found.once.edge_updates);
+        rows.push(printed.count(&format!("{name}: steps of edges saved"), twice, once));
+        let what = format!("{name}: pieces a polygon");
+        rows.push(Row::new(what, found.pieces, 2, Check::Trend));
+        rows.push(found.tests(&name));
+        rows.push(differing(&format!("{name}, right view"), found.different[1]));
+        // The left one may show another polygon of the same depth.
+        let what = format!("{name}, left view: pixels that differ");
+        rows.push(Row::new(what, found.different[0] as f64, 0, Check::AtMost(5.0)));
+    }
+    // The other extreme: most planes pass between the eyes.
+    let scene = scene::open("exclusive", Some(SIZE), None)?;
+    let found = Traversals::of(&geometry(&scene, Cull::None)?)?;
+    rows.push(found.tests("exclusive"));
+    rows.push(Row::new("exclusive: ratio of times", found.ratio, 2, Check::Trend));
+    let title = format!("BSP/z-buffer compared to BSP (Table 1), views of {}", size(SIZE));
+    Ok(Table { title, rows })
+}
+
+/// Two traversals of a tree beside one.
+struct Traversals {
+    /// Work of two traversals, and of one.
+    twice: Work,
+    once: Work,
+    /// Time of two by that of one.
+    ratio: f64,
+    /// Pieces a polygon.
+    pieces: f64,
+    /// Pixels that differ in each view.
+    different: [usize; 2],
+}
+
+impl Traversals {
+    fn of(geometry: &Geometry) -> Result<Traversals, StudyError> {
+        let surfaces = surfaces(geometry)?;
+        let tree = Tree::new(&surfaces);
+        let (mut twice, mut once) = (Work::default(), Work::default());
+        let alone = Eye::BOTH.map(|eye| bsp::one(&surfaces, &tree, eye, &mut twice));
+        let both = bsp::both(&surfaces, &tree, &mut once);
+        let [mut left, mut right] = [(); 2].map(|()| ([surfaces.items()], ZBuffer::default()));
+        let (mut items, mut z_buffer) = ([surfaces.items(), surfaces.items()], ZBuffer::default());
+        let time = ratio(
+            ROUNDS,
+            || {
+                for (eye, (items, unused)) in [(Eye::Left, &mut left), (Eye::Right, &mut right)] {
+                    bsp::draw(&surfaces, &tree, [eye], items, unused, &mut Unmetered);
+                }
+            },
+            || bsp::draw(&surfaces, &tree, Eye::BOTH, &mut items, &mut z_buffer, &mut Unmetered),
+        );
+        Ok(Traversals {
+            twice,
+            once,
+            ratio: time.median,
+            pieces: tree.pieces() as f64 / surfaces.opaque.len() as f64,
+            different: [0, 1].map(|n: usize| different(&alone[n].item, &both[n].item)),
+        })
+    }
+
+    /// A row of how much depth decides.
+    fn tests(&self, name: &str) -> Row {
+        let tests = 100.0 * self.once.depth_tests as f64 / self.once.pixels_written as f64;
+        let what = format!("{name}: pixels with a depth test");
+        Row::new(what, tests, 2, Check::Trend).unit("%")
+    }
+}
+
+/// Scan-line hidden surfaces, flat and with Gouraud shading.
+fn scan_lines(village: &Scene, model: &Model) -> Result<Table, StudyError> {
+    let printed = Printed { saved: 12.0, speed_up: 1.24 };
+    let geometry = geometry(village, Cull::Back)?;
+    let surfaces = surfaces(&geometry)?;
+    let count = |run: &dyn Fn(&mut Work)| {
+        let mut work = Work::default();
+        let ((), operations) = counted(|| run(&mut work));
+        Work { operations, ..work }
+    };
+    let one = |eye| count(&|work: &mut Work| drop(scan_line::one::<Counted>(&surfaces, eye, work)));
+    let twice = one(Eye::Left) + one(Eye::Right);
+    let once = count(&|work: &mut Work| drop(scan_line::both::<Counted>(&surfaces, work)));
+    let alone = Eye::BOTH.map(|eye| scan_line::one::<f64>(&surfaces, eye, &mut Unmetered));
+    let both = scan_line::both::<f64>(&surfaces, &mut Unmetered);
+    let pixels = (0..2).map(|n| different(&alone[n].item, &both[n].item)).sum();
+    let [mut a, mut b] = [(); 2].map(|()| [surfaces.items()]);
+    let mut items = [surfaces.items(), surfaces.items()];
+    let time = ratio(
+        ROUNDS,
+        || {
+            scan_line::draw_items::<f64, 1>(&surfaces, [Eye::Left], &mut a, &mut Unmetered);
+            scan_line::draw_items::<f64, 1>(&surfaces, [Eye::Right], &mut b, &mut Unmetered);
+        },
+        || scan_line::draw_items::<f64, 2>(&surfaces, Eye::BOTH, &mut items, &mut Unmetered),
+    );
+    let mut rows = printed.time("hidden surfaces", time.median).to_vec();
+    rows.push(printed.count(
+        "hidden surfaces: updates of edge lists saved",
+        twice.edge_updates,
+        once.edge_updates,
+    ));
+    let edges = |work: &Work| work.interpolations - work.depth_tests;
+    rows.push(printed.count(
+        "hidden surfaces: interpolations along edges saved",
+        edges(&twice),
+        edges(&once),
+    ));
+    rows.push(differing("hidden surfaces", pixels));
+
+    // Lit and projected beforehand.
+    let vertices = model.vertices::<f64, 2>(Eye::BOTH);
+    let [mut a, mut b] = [(); 2].map(|()| model.views::<1>());
+    let mut views = model.views::<2>();
+    let time = ratio(
+        ROUNDS,
+        || {
+            model.scan::<f64, 1>([Eye::Left], &vertices, &mut a, &mut Unmetered);
+            model.scan::<f64, 1>([Eye::Right], &vertices, &mut b, &mut Unmetered);
+        },
+        || model.scan::<f64, 2>(Eye::BOTH, &vertices, &mut views, &mut Unmetered),
+    );
+    // Only the percentage is printed, in the text.
+    let text = Printed { saved: 17.0, speed_up: 1.0 };
+    let [saved, speed_up] = text.time("with Gouraud shading", time.median);
+    rows.extend([saved, Row { printed: None, corrected: None, erratum: None, ..speed_up }]);
+    let title = format!("Scan-line hidden surface (Table 1), village, views of {}", size(SIZE));
+    Ok(Table { title, rows })
+}
+
+/// The simple renderer.
+fn renderer(model: &Model) -> Result<Table, StudyError> {
+    let printed = Printed { saved: 18.8, speed_up: 1.38 };
+    let (mut twice, mut once) = (Work::default(), Work::default());
+    let [mut left, mut right] = [(); 2].map(|()| model.views::<1>());
+    let mut both = model.views::<2>();
+    let ((), operations) = counted(|| {
+        model.draw::<Counted, 1>([Eye::Left], &mut left, &mut twice);
+        model.draw::<Counted, 1>([Eye::Right], &mut right, &mut twice);
+    });
+    twice.operations = operations;
+    let ((), operations) = counted(|| model.draw::<Counted, 2>(Eye::BOTH, &mut both, &mut once));
+    once.operations = operations;
+    let pixels = different(&left.colours[0], &both.colours[0])
+        + different(&right.colours[0], &both.colours[1]);
+    let mut rows = vec![
+        Row::new("triangles", model.triangles() as f64, 0, Check::Within(0.05)).printed(1100.0)
+    ];
+    rows.extend(printed.time("village", time(model)));
+    rows.push(printed.count(
+        "village: arithmetic of projection, edges and spans saved",
+        twice.operations.arithmetic(),
+        once.operations.arithmetic(),
+    ));
+    rows.push(printed.count(
+        "village: updates of edge lists saved",
+        twice.edge_updates,
+        once.edge_updates,
+    ));
+    let values = 100.0 * (1.0 - once.interpolations as f64 / twice.interpolations as f64);
+    let what = "village: interpolations saved, those of pixels included";
+    rows.push(Row::new(what, values, 1, Check::Trend).unit("%"));
+    rows.push(differing("village", pixels));
+    let large = Model::new(&scene::open("village", Some(LARGE), None)?, &formats())?;
+    rows.extend(printed.time(&format!("village, {}", size(LARGE)), time(&large)));
+    let title = format!("Simple renderer (Table 1), village, views of {}", size(SIZE));
+    Ok(Table { title, rows })
+}
+
+/// Time of two runs for one view by that of one for both.
+fn time(model: &Model) -> f64 {
+    let [mut left, mut right] = [(); 2].map(|()| model.views::<1>());
+    let mut both = model.views::<2>();
+    let time = ratio(
+        ROUNDS,
+        || {
+            model.draw::<f64, 1>([Eye::Left], &mut left, &mut Unmetered);
+            model.draw::<f64, 1>([Eye::Right], &mut right, &mut Unmetered);
+        },
+        || model.draw::<f64, 2>(Eye::BOTH, &mut both, &mut Unmetered),
+    );
+    time.median
+}
+
+/// How many elements differ.
+fn different(a: &[u32], b: &[u32]) -> usize {
+    a.iter().zip(b).filter(|(a, b)| a != b).count()
+}
+
+fn size([width, height]: [u32; 2]) -> String {
+    format!("{width} × {height}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::Verdict;
+
+    /// All figures that do not depend on the machine hold.
+    #[test]
+    fn counts_and_pixels_hold() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let report = run(folder.path()).expect("it can be run");
+        assert!(report.files.iter().all(|file| file.exists()));
+        report.tables.iter().for_each(|table| println!("{table}"));
+        let rows: Vec<&Row> = report.tables.iter().flat_map(|table| &table.rows).collect();
+        assert!(rows.len() > 25);
+        for row in rows.iter().filter(|row| !row.what.contains("speed-up")) {
+            assert!(row.verdict() != Verdict::Differs, "{}: {}", row.what, row.here);
+        }
+    }
+}
