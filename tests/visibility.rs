@@ -2,6 +2,7 @@
 
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::{Eye, Formats};
+use wheatstone_golden::frame::Scissor;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::scene::{self, Cull, Geometry};
 use wheatstone_golden::setup::{Options, Polygon};
@@ -31,6 +32,7 @@ pub fn job(polygons: &[Polygon], size: [u32; 2]) -> Job<'_> {
         width: size[0],
         height: size[1],
         background: [20, 30, 40],
+        scissor: Scissor::default(),
         polygons,
         textures: &[],
         lookup: Lookup::Nearest,

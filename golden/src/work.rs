@@ -243,6 +243,30 @@ impl Add for Work {
     }
 }
 
+impl Work {
+    /// What this is more than other work of the same kind; 0 where it is less.
+    pub fn beyond(&self, other: &Work) -> Work {
+        let less = |own: u64, other: u64| own.saturating_sub(other);
+        let (own, done) = (&self.operations, &other.operations);
+        Work {
+            operations: Operations {
+                additions: less(own.additions, done.additions),
+                multiplications: less(own.multiplications, done.multiplications),
+                divisions: less(own.divisions, done.divisions),
+                comparisons: less(own.comparisons, done.comparisons),
+            },
+            polygons: less(self.polygons, other.polygons),
+            interpolations: less(self.interpolations, other.interpolations),
+            edge_updates: less(self.edge_updates, other.edge_updates),
+            depth_tests: less(self.depth_tests, other.depth_tests),
+            pixels_tested: less(self.pixels_tested, other.pixels_tested),
+            pixels_written: less(self.pixels_written, other.pixels_written),
+            boundary_clips: less(self.boundary_clips, other.boundary_clips),
+            beats: less(self.beats, other.beats),
+        }
+    }
+}
+
 impl Sum for Work {
     fn sum<I: Iterator<Item = Work>>(works: I) -> Work {
         works.fold(Work::default(), Add::add)

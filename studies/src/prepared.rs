@@ -1,11 +1,14 @@
 //! A scene ready to be drawn.
 
+use std::sync::OnceLock;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::Formats;
 use wheatstone_golden::scene::{self, Geometry, Scene, SceneError};
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::texture::Lookup;
+use wheatstone_golden::visibility::bsp::Tree;
+use wheatstone_golden::visibility::Surfaces;
 
 /// A scene with its polygons, and how they are drawn.
 #[derive(Clone, Debug)]
@@ -20,6 +23,7 @@ pub struct Prepared {
     pub options: Options,
     /// How textures are sampled.
     pub lookup: Lookup,
+    tree: OnceLock<Tree>,
 }
 
 impl Prepared {
@@ -27,8 +31,23 @@ impl Prepared {
     pub fn new(scene: Scene) -> Result<Prepared, SceneError> {
         let config = Config::DEFAULT;
         let geometry = scene.geometry(&Formats::new(&config), &scene::Options::default())?;
-        let (options, lookup) = (Options::new(&config), Lookup::Nearest);
-        Ok(Prepared { scene, geometry, config, options, lookup })
+        Ok(Prepared::of(scene, geometry, config, Options::new(&config), Lookup::Nearest))
+    }
+
+    /// A scene, its polygons, and how to draw them.
+    pub fn of(
+        scene: Scene,
+        geometry: Geometry,
+        config: Config,
+        options: Options,
+        lookup: Lookup,
+    ) -> Prepared {
+        Prepared { scene, geometry, config, options, lookup, tree: OnceLock::new() }
+    }
+
+    /// The BSP tree of its polygons; made when it is first asked for.
+    pub fn tree(&self, surfaces: &Surfaces) -> &Tree {
+        self.tree.get_or_init(|| Tree::new(surfaces))
     }
 
     /// The job that draws it.

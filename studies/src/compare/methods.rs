@@ -10,7 +10,8 @@ use wheatstone_golden::setup::{Eyes, Polygon};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::visibility::p_buffer;
 use wheatstone_golden::visibility::warping::{self, Disparity, Warped};
-use wheatstone_golden::work::{Meter, Unmetered, Work};
+use wheatstone_golden::visibility::{bsp, scan_line, Items, Surfaces};
+use wheatstone_golden::work::{counted, Counted, Meter, Real, Unmetered, Work};
 
 /// All methods, in the order of the table.
 pub const METHODS: &[Method] = &[
@@ -58,6 +59,38 @@ pub const METHODS: &[Method] = &[
         }),
     },
     Method {
+        name: "scan-line",
+        description: "scan-line hidden surfaces of both views at once",
+        draw: |prepared| simultaneous(prepared, scanned::<Counted, _>, scanned_first::<Counted, _>),
+        timed: Timed::Both {
+            both: |prepared| {
+                frames(prepared, |s| scanned::<f64, _>(prepared, s, &mut Unmetered).into())
+            },
+            first: |prepared| {
+                frames(prepared, |s| vec![scanned_first::<f64, _>(prepared, s, &mut Unmetered)])
+            },
+        },
+    },
+    Method {
+        name: "bsp-z",
+        description: "BSP tree, made beforehand, and one z-buffer: both views by one traversal",
+        draw: |prepared| {
+            let polygons = prepared.geometry.polygons.len();
+            if polygons > LARGEST_TREE {
+                let most =
+                    format!("a BSP tree of at most {LARGEST_TREE} polygons, found {polygons}");
+                return Err(Unsuited(most));
+            }
+            simultaneous(prepared, painted, painted_first)
+        },
+        timed: Timed::Both {
+            both: |prepared| frames(prepared, |s| painted(prepared, s, &mut Unmetered).into()),
+            first: |prepared| {
+                frames(prepared, |s| vec![painted_first(prepared, s, &mut Unmetered)])
+            },
+        },
+    },
+    Method {
         name: "sam-minimal",
         description: "stereoscopic affine mapping, minimal system: mapping and sampling only",
         draw: |prepared| Ok(mapped(prepared, true)),
@@ -76,6 +109,49 @@ pub const METHODS: &[Method] = &[
         },
     },
 ];
+
+/// Most polygons of a BSP tree: the time to build one grows with their square.
+const LARGEST_TREE: usize = 20_000;
+
+fn scanned<T: Real, M: Meter>(_: &Prepared, surfaces: &Surfaces, meter: &mut M) -> [Items; 2] {
+    scan_line::both::<T>(surfaces, meter)
+}
+
+fn scanned_first<T: Real, M: Meter>(_: &Prepared, surfaces: &Surfaces, meter: &mut M) -> Items {
+    scan_line::one::<T>(surfaces, Eye::Left, meter)
+}
+
+fn painted<M: Meter>(prepared: &Prepared, surfaces: &Surfaces, meter: &mut M) -> [Items; 2] {
+    bsp::both(surfaces, prepared.tree(surfaces), meter)
+}
+
+fn painted_first<M: Meter>(prepared: &Prepared, surfaces: &Surfaces, meter: &mut M) -> Items {
+    bsp::one(surfaces, prepared.tree(surfaces), Eye::Left, meter)
+}
+
+/// Both views at once, and the work that they take more than the left one by the same code.
+fn simultaneous(
+    prepared: &Prepared,
+    both: impl Fn(&Prepared, &Surfaces, &mut Work) -> [Items; 2],
+    first: impl Fn(&Prepared, &Surfaces, &mut Work) -> Items,
+) -> Result<Pair, Unsuited> {
+    let job = prepared.job();
+    let surfaces = Surfaces::new(&job).map_err(|error| Unsuited(error.to_string()))?;
+    let (mut together, mut alone) = (Work::default(), Work::default());
+    let (items, done) = counted(|| both(prepared, &surfaces, &mut together));
+    together.operations = done;
+    (_, alone.operations) = counted(|| first(prepared, &surfaces, &mut alone));
+    let frames = Eye::BOTH.map(|eye| surfaces.frame(&items[eye as usize], eye));
+    Ok(Pair { frames, work: together.beyond(&alone), holes: None })
+}
+
+/// Frames of views that are resolved by `resolve`, the left one first.
+fn frames(prepared: &Prepared, resolve: impl Fn(&Surfaces) -> Vec<Items>) -> Vec<Frame> {
+    // Only scenes that can be drawn are timed.
+    let Ok(surfaces) = Surfaces::new(&prepared.job()) else { return Vec::new() };
+    let items = resolve(&surfaces);
+    items.iter().zip(Eye::BOTH).map(|(items, eye)| surfaces.frame(items, eye)).collect()
+}
 
 /// The right view, warped from the left one.
 fn warp(prepared: &Prepared, left: &Frame, meter: &mut impl Meter) -> Result<Warped, Unsuited> {

@@ -112,7 +112,11 @@ pub fn compare(
         tell(method);
         let result = match (method.draw)(prepared) {
             Err(unsuited) => Err(unsuited),
-            Ok(pair) => {
+            Ok(mut pair) => {
+                for eye in Eye::BOTH {
+                    let outside = |x| !job.scissor.contains(eye, x);
+                    pair.frames[eye as usize].clear_columns(outside, job.background);
+                }
                 let file = out.map(|folder| folder.join(format!("{}.png", method.name)));
                 if let Some(file) = &file {
                     let errors = [0, 1].map(|n| error_picture(&pair.frames[n], &direct[n]));

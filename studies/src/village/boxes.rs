@@ -9,14 +9,12 @@ pub const TRIANGLES: usize = 12;
 /// Turned boxes before and behind the screen, lit; some pass through others.
 pub fn boxes(count: usize, width: u32, height: u32) -> Result<Scene, SceneError> {
     let mut mesh = Mesh::default();
-    let cube_root = (count as f64).cbrt();
     for n in 1..=count {
         // The fractions of multiples of irrational numbers cover the room evenly.
         let part = |step: f64| (n as f64 * step).fract();
         let [s, t, u] = [0.754_877_666, 0.569_840_291, 0.381_966_011].map(part);
         let centre = [28.0 * s - 14.0, 20.0 * t - 10.0, 24.0 * u - 8.0];
-        // The more there are, the smaller.
-        let half = [0.7 + 0.6 * t, 0.7 + 0.6 * u, 0.7 + 0.6 * s].map(|n| n * 4.2 / cube_root);
+        let half = [0.7 + 0.6 * t, 0.7 + 0.6 * u, 0.7 + 0.6 * s];
         solid(&mut mesh, centre, half, [360.0 * s, 360.0 * t]);
     }
     // Eyes, screen, light and material of the village.

@@ -9,7 +9,7 @@ pub mod boxes;
 
 use crate::report::{Check, Report, Row, Table};
 use crate::timing::ratio;
-use crate::StudyError;
+use crate::{Experiment, StudyError};
 use boxes::{boxes, TRIANGLES};
 use std::path::Path;
 use wheatstone_golden::config::Config;
@@ -48,7 +48,7 @@ fn run(folder: &Path) -> Result<Report, StudyError> {
     let mut views = model.views();
     model.draw::<f64, 2>(Eye::BOTH, &mut views, &mut Unmetered);
     let file = folder.join("village.png");
-    write_png(&file, &side_by_side(&views.picture(0), &views.picture(1)))?;
+    write_png(&file, &side_by_side(&[&views.picture(0), &views.picture(1)]))?;
     Ok(Report {
         experiment: "village".into(),
         publication: "Adelson et al. 1991".into(),
@@ -67,16 +67,7 @@ fn geometry(scene: &Scene, cull: Cull) -> Result<Geometry, StudyError> {
 }
 
 fn surfaces(geometry: &Geometry) -> Result<Surfaces<'_>, StudyError> {
-    let job = Job {
-        config: Config::DEFAULT,
-        options: Options::new(&Config::DEFAULT),
-        width: geometry.width,
-        height: geometry.height,
-        background: geometry.background.rgb(),
-        polygons: &geometry.polygons,
-        textures: &geometry.textures,
-        lookup: Lookup::Nearest,
-    };
+    let job = Job::of(geometry, Config::DEFAULT, Options::new(&Config::DEFAULT), Lookup::Nearest);
     Ok(Surfaces::new(&job)?)
 }
 

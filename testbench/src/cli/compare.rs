@@ -31,8 +31,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     if let Some(out) = &args.out {
         std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;
     }
-    let prepared =
-        Prepared { scene, geometry, config: settings.config, options, lookup: settings.lookup };
+    let prepared = Prepared::of(scene, geometry, settings.config, options, settings.lookup);
     let spinner = Spinner::new();
     let tell = |method: &Method| spinner.tell(method.name, method.description);
     let outcomes = compare(&prepared, args.out.as_deref(), tell);
