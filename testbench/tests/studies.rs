@@ -50,7 +50,7 @@ fn bad_input_of_reproduce_has_status_2() {
         assert_eq!(status(&output), Some(2), "{arguments:?}");
         assert!(said(&output).contains(message), "{arguments:?}: {}", said(&output));
     };
-    let names = "no such experiment; there are: filter, height-field";
+    let names = "no such experiment; there are: filter, adelson, village";
     refused(&["reproduce", "filters", "--out", "found"], names);
     refused(&["reproduce", "filter"], "--out");
     refused(&["reproduce", "filter", "--out", "taken"], "taken/filter: cannot be written");

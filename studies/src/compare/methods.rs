@@ -77,8 +77,9 @@ pub const METHODS: &[Method] = &[
         draw: |prepared| {
             let polygons = prepared.geometry.polygons.len();
             if polygons > LARGEST_TREE {
-                let most =
-                    format!("a BSP tree of at most {LARGEST_TREE} polygons, found {polygons}");
+                let most = format!(
+                    "expected at most {LARGEST_TREE} polygons for a tree, found {polygons}"
+                );
                 return Err(Unsuited(most));
             }
             simultaneous(prepared, painted, painted_first)

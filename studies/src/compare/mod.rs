@@ -174,6 +174,11 @@ pub fn error_picture(frame: &Frame, direct: &Frame) -> RgbImage {
     errors
 }
 
+/// Pixels that were looked at: tested, moved or painted over.
+fn pixels(work: &Work) -> u64 {
+    work.pixels_tested.max(work.depth_tests).max(work.pixels_written)
+}
+
 /// The outcomes as a table; a dash stands for what a method does not count.
 pub fn table(outcomes: &[Outcome]) -> String {
     let mut table = comfy_table::Table::new();
@@ -182,7 +187,7 @@ pub fn table(outcomes: &[Outcome]) -> String {
     table.set_header([
         "",
         "operations",
-        "pixels tested",
+        "pixels",
         "beats",
         "time",
         "wrong polygon",
@@ -190,10 +195,14 @@ pub fn table(outcomes: &[Outcome]) -> String {
         "holes",
         "PSNR",
     ]);
+    let mut notes = String::new();
     for Outcome { method, result } in outcomes {
         let mut row = vec![method.name.to_string()];
         match result {
-            Err(unsuited) => row.push(unsuited.to_string()),
+            Err(unsuited) => {
+                row.push("unsuited".into());
+                notes += &format!("\n{}: {unsuited}", method.name);
+            }
             Ok(measured) => row.extend(cells(measured)),
         }
         table.add_row(row);
@@ -201,7 +210,7 @@ pub fn table(outcomes: &[Outcome]) -> String {
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(comfy_table::CellAlignment::Right);
     }
-    table.to_string()
+    format!("{table}{notes}")
 }
 
 fn cells(measured: &Measured) -> [String; 8] {
@@ -212,7 +221,7 @@ fn cells(measured: &Measured) -> [String; 8] {
     };
     [
         counted(work.operations.all()),
-        counted(work.pixels_tested),
+        counted(pixels(work)),
         counted(work.beats),
         format!("{time:.2}"),
         share(quality.ids),
