@@ -77,7 +77,7 @@ fn the_second_view_takes_what_the_first_alone_does_not() {
         // What is timed as the first view is the whole first view.
         assert!(first.id == left.0.id, "{}", method.name);
         let work = pair.work;
-        let some = work.beats + work.pixels_tested + work.operations.all();
+        let some = work.beats + work.pixels() + work.operations.all();
         assert!(some > 0, "{} counts nothing", method.name);
         assert!(work.beats < job.run(true, &mut Nothing).beats());
     }

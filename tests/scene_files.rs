@@ -118,7 +118,7 @@ fn files_that_cannot_be_read_are_named() {
     }
     let unknown = error("teapto");
     assert!(
-        unknown.contains("teapto") && unknown.contains("teapot, room, atoms, ramp"),
+        unknown.contains("teapto") && unknown.contains("teapot, room, village, atoms"),
         "{unknown}"
     );
     assert!(error("mesh.stl").contains(".obj, .json, .png, .txt or .grid"));

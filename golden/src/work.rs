@@ -244,6 +244,11 @@ impl Add for Work {
 }
 
 impl Work {
+    /// Pixels that were looked at: tested, moved or painted over.
+    pub fn pixels(&self) -> u64 {
+        self.pixels_tested.max(self.depth_tests).max(self.pixels_written)
+    }
+
     /// What this is more than other work of the same kind; 0 where it is less.
     pub fn beyond(&self, other: &Work) -> Work {
         let less = |own: u64, other: u64| own.saturating_sub(other);

@@ -174,11 +174,6 @@ pub fn error_picture(frame: &Frame, direct: &Frame) -> RgbImage {
     errors
 }
 
-/// Pixels that were looked at: tested, moved or painted over.
-fn pixels(work: &Work) -> u64 {
-    work.pixels_tested.max(work.depth_tests).max(work.pixels_written)
-}
-
 /// The outcomes as a table; a dash stands for what a method does not count.
 pub fn table(outcomes: &[Outcome]) -> String {
     let mut table = comfy_table::Table::new();
@@ -221,7 +216,7 @@ fn cells(measured: &Measured) -> [String; 8] {
     };
     [
         counted(work.operations.all()),
-        counted(pixels(work)),
+        counted(work.pixels()),
         counted(work.beats),
         format!("{time:.2}"),
         share(quality.ids),
