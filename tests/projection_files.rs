@@ -29,9 +29,9 @@ fn the_display_makes_dots_of_inches() {
 /// Wrong rig files, the words that the error must contain.
 const WRONG: &[(&str, &[&str])] = &[
     ("{\n\"projection\": \"fisheye\"}", &["rig.json:2: projection: expected one of", "`two-centres`", "fisheye"]),
-    ("{\"projection\": \"symmetric\",\n\"eye_separation\": 0}", &["rig.json:2: eye_separation: expected more than 0 with projection symmetric, found 0"]),
-    ("{\"projection\": \"asymptotic\",\n\"eye_separation\": 0}", &["rig.json:2: eye_separation: expected more than 0 with projection asymptotic, found 0"]),
-    ("{\"projection\": \"piecewise\",\n\"eye_separation\": 0}", &["rig.json:2: eye_separation: expected more than 0 with projection piecewise, found 0"]),
+    ("{\"projection\": \"symmetric\",\n\"eye_separation\": 0}", &["rig.json:2: eye_separation: expected a number from 1e-9 to 1e9, found 0"]),
+    ("{\"projection\": \"asymptotic\",\n\"eye_separation\": 0}", &["rig.json:2: eye_separation: expected a number from 1e-9 to 1e9, found 0"]),
+    ("{\"projection\": \"piecewise\",\n\"eye_separation\": 0}", &["rig.json:2: eye_separation: expected a number from 1e-9 to 1e9, found 0"]),
     ("{\"projection\": \"symmetric\",\n\"head_tilt\": 5}", &["rig.json:2: head_tilt: expected 0 with projection symmetric", "found 5"]),
     ("{\"projection\": \"symmetric\",\n\"eye_separation\": 32}", &["rig.json:2: eye_separation: expected less than the width of the screen, 32, found 32"]),
     ("{\n\"viewing_distance\": -60}", &["rig.json:2: viewing_distance: expected a number from 1e-9", "found -60"]),
@@ -46,6 +46,7 @@ const WRONG: &[(&str, &[&str])] = &[
     ("{\"projection\": \"translate\", \"translate\": {\n\"eye_distance\": 0, \"viewing_distance\": 18, \"dot_pitch\": 1}}", &["rig.json:2: translate.eye_distance", "found 0"]),
     ("{\"projection\": \"translate\", \"translate\": {\"eye_distance\": 2.5,\n\"dot_pitch\": 1}}", &["rig.json:2: translate.viewing_distance: expected a value, found nothing"]),
     ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": [\n{\"near\": 50, \"far\": 60, \"min_distance\": 55, \"max_distance\": 60},\n{\"near\": 59, \"far\": 70, \"min_distance\": 60, \"max_distance\": 65}]}}", &["rig.json:3: piecewise.partitions[1].near: expected at least 60, where partition 0 ends", "found 59"]),
+    ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": []}}", &["rig.json:1: piecewise.partitions: expected at least one partition"]),
     ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": [{\"near\": 70,\n\"far\": 70, \"min_distance\": 55, \"max_distance\": 60}]}}", &["rig.json:2: piecewise.partitions[0].far: expected more than near, which is 70, found 70"]),
     ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": [{\"near\": 50, \"far\": 60, \"min_distance\": 55,\n\"max_distance\": 54}]}}", &["rig.json:2: piecewise.partitions[0].max_distance: expected at least min_distance, which is 55, found 54"]),
     ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": [{\"near\": 50, \"far\": 60,\n\"max_distance\": 54}]}}", &["rig.json:2: piecewise.partitions[0].min_distance: expected a value, found nothing"]),
@@ -71,11 +72,8 @@ fn senseless_rigs_give_one_clear_error() {
         "eye_separation": 0, "viewing_distance": 9, "background": [0, 0, 0], "vertices": [],
         "colors": [], "triangles": []}"#;
     std::fs::write(&flat, scene).expect("written");
-    let name = flat.to_string_lossy();
-    open(&name, None, None).expect("legal");
-    let error = open_projected(&name, None, None, Some(Kind::Symmetric)).expect_err("no strip");
-    let expected =
-        "flat.json: eye_separation: expected more than 0 with projection symmetric, found 0";
+    let error = open(&flat.to_string_lossy(), None, None).expect_err("one eye");
+    let expected = "flat.json:2: eye_separation: expected a number from 1e-9 to 1e9, found 0";
     assert!(error.to_string().ends_with(expected), "{error}");
     // In code, what is not finite.
     let check = |parameters| {

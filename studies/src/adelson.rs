@@ -52,8 +52,6 @@ fn saved([separately, together]: [Work; 2], count: impl Fn(&Work) -> u64) -> f64
 enum Bound {
     /// It is met to the digits that are printed.
     Digits,
-    /// It is met to two hundredths: the publication rounds it roughly.
-    About,
     /// It is reached or exceeded.
     Least,
     /// It is not exceeded.
@@ -64,7 +62,6 @@ enum Bound {
 fn measures(what: &str, printed: [f64; 3], speed_up: f64, saving: f64, bound: Bound) -> [Row; 3] {
     let check = |reference: f64| match bound {
         Bound::Digits => Check::Digits,
-        Bound::About => Check::Within(0.02),
         Bound::Least => Check::AtLeast(reference),
         Bound::Most => Check::AtMost(reference),
     };
@@ -80,6 +77,14 @@ fn measures(what: &str, printed: [f64; 3], speed_up: f64, saving: f64, bound: Bo
         percent("II", printed[1], 2.0 * saving),
         if speed_up == printed[2] { third } else { third.corrected(speed_up, COLUMN_III) },
     ]
+}
+
+/// The flat triangle's measures: its interpolations save 4.58 %.
+fn flat_triangle(saving: f64) -> [Row; 3] {
+    let [first, second, third] =
+        measures("Gouraud polygon, flat", [4.5, 9.0, 1.1], 1.05, saving, Bound::Digits);
+    let first = Row { digits: 1, ..first }.corrected(4.6, "1442 to 1376 is a saving of 4.58 %");
+    [first, second, third]
 }
 
 fn savings() -> Table {
@@ -108,7 +113,7 @@ fn savings() -> Table {
             many_sides,
             Bound::Least,
         ),
-        measures("Gouraud polygon, flat", [4.5, 9.0, 1.1], 1.05, triangle, Bound::About),
+        flat_triangle(triangle),
         measures("Gouraud polygon, narrow", [37.5, 75.0, 1.75], 1.6, narrow, Bound::Digits),
         measures("line clipping", [25.0, 50.0, 1.5], 1.33, lines, Bound::Digits),
         measures("polygon clipping", [1.0, 1.0, 1.0], 1.0, polygons, Bound::Least),

@@ -2,6 +2,7 @@
 
 use super::map::DistanceMap;
 use crate::scene::{check_length, Rig, RigError};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
 /// Parameters of the asymptotic projection (NASA 1992, appendix A). What is not given follows from
@@ -36,7 +37,17 @@ pub struct Piecewise {
     pub eye_distance: Option<f64>,
     /// The partitions, the nearest first; none stands for [`Piecewise::four`]. Between and beside
     /// them nothing is drawn.
+    #[serde(deserialize_with = "at_least_one")]
     pub partitions: Vec<Partition>,
+}
+
+/// An empty list would draw nothing; what is not there takes the default.
+fn at_least_one<'de, D: Deserializer<'de>>(list: D) -> Result<Vec<Partition>, D::Error> {
+    let partitions = Vec::deserialize(list)?;
+    if partitions.is_empty() {
+        return Err(D::Error::invalid_length(0, &"at least one partition"));
+    }
+    Ok(partitions)
 }
 
 /// A range of distances in the scene, and that in which it is perceived.

@@ -12,7 +12,7 @@ use crate::projection::Projection;
 pub struct Rig {
     /// Pixels to a unit of length on the screen, the plane z = 0.
     pub pixels_per_unit: f64,
-    /// Distance between the eyes, e; not negative.
+    /// Distance between the eyes, e; more than 0.
     pub eye_separation: f64,
     /// Distance from the eyes to the screen, d.
     pub viewing_distance: f64,
@@ -69,9 +69,7 @@ impl Rig {
     pub fn check(&self) -> Result<(), RigError> {
         check_length("pixels_per_unit", self.pixels_per_unit)?;
         check_length("viewing_distance", self.viewing_distance)?;
-        if self.eye_separation != 0.0 {
-            check_length("eye_separation", self.eye_separation)?;
-        }
+        check_length("eye_separation", self.eye_separation)?;
         if !(-180.0..=180.0).contains(&self.head_tilt) {
             let expected = "an angle from -180 to 180 degrees";
             return Err(RigError::new("head_tilt", expected, self.head_tilt));

@@ -23,6 +23,8 @@ pub const METHODS: &[Method] = &[
             let job = prepared.job();
             let left = job.view(Eye::Left, &mut Unmetered);
             let right = job.view(Eye::Right, &mut work);
+            // What a second pass of the pixel pipeline would take.
+            work.beats = alone(prepared, Eye::Right, false).1.beats();
             Ok(Pair { frames: [left, right], work, holes: None })
         },
         timed: Timed::Second(|prepared, _| prepared.job().view(Eye::Right, &mut Unmetered)),
@@ -174,23 +176,23 @@ fn both(job: &Job, minimal: bool) -> Vec<Frame> {
 
 /// The left view alone by a system.
 fn first(prepared: &Prepared, minimal: bool) -> Vec<Frame> {
-    left_alone(prepared, minimal).0.eyes.to_vec()
+    alone(prepared, Eye::Left, minimal).0.eyes.to_vec()
 }
 
-/// The left view alone by a system, which draws all polygons monocular then.
-fn left_alone(prepared: &Prepared, minimal: bool) -> (Frames, Counts) {
-    let seen = prepared.geometry.polygons.iter().filter(|p| p.eyes.contains(Eye::Left));
-    let left = |p: &Polygon| Polygon { eyes: Eyes::One(Eye::Left), ..p.clone() };
-    let polygons: Vec<Polygon> = seen.map(left).collect();
+/// One view alone by a system, which draws all polygons monocular then.
+fn alone(prepared: &Prepared, eye: Eye, minimal: bool) -> (Frames, Counts) {
+    let seen = prepared.geometry.polygons.iter().filter(|p| p.eyes.contains(eye));
+    let only = |p: &Polygon| Polygon { eyes: Eyes::One(eye), ..p.clone() };
+    let polygons: Vec<Polygon> = seen.map(only).collect();
     Job { polygons: &polygons, ..prepared.job() }.derived(minimal)
 }
 
 /// Both views by a system; the beats of the second are those that the first alone would not take.
 fn mapped(prepared: &Prepared, minimal: bool) -> Pair {
     let (frames, counts) = prepared.job().derived(minimal);
-    let (_, alone) = left_alone(prepared, minimal);
+    let (_, left) = alone(prepared, Eye::Left, minimal);
     let work = Work {
-        beats: counts.beats().saturating_sub(alone.beats()),
+        beats: counts.beats().saturating_sub(left.beats()),
         pixels_written: frames.written[Eye::Right as usize],
         ..Work::default()
     };

@@ -238,13 +238,22 @@ impl fmt::Display for Grouped {
     }
 }
 
+/// Counts with `null` for what a method does not count.
+fn counts(work: Value) -> Value {
+    match work {
+        Value::Object(fields) => fields.into_iter().map(|(k, v)| (k, counts(v))).collect(),
+        Value::Number(n) if n.as_u64() == Some(0) => Value::Null,
+        other => other,
+    }
+}
+
 /// The outcomes as JSON.
 pub fn json(outcomes: &[Outcome]) -> Value {
     let one = |Outcome { method, result }: &Outcome| match result {
         Err(unsuited) => json!({ "method": method.name, "unsuited": unsuited.to_string() }),
         Ok(Measured { work, time, quality, holes, file }) => json!({
             "method": method.name,
-            "work": work,
+            "work": counts(json!(work)),
             "time_ratio": time,
             "pixels": quality.pixels,
             "wrong_polygon": quality.ids,

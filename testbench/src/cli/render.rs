@@ -94,7 +94,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
         let ids = id_picture(frame.width, frame.height, id);
         write_png(&set.add(format!("{}_ids.png", eye.name())), &ids)?;
     }
-    for composite in &args.stereo {
+    let wanted = Composite::ALL.iter().filter(|composite| args.stereo.contains(composite));
+    for composite in wanted {
         let file = set.add(format!("{}.png", composite.name()));
         let free = composite.is_side_by_side().then(|| {
             let far = scene.rig.eye_separation * scene.rig.pixels_per_unit;
