@@ -183,29 +183,17 @@ impl Projection {
 
     /// Refuses parameters that make no sense with a rig whose own values do.
     pub fn check(&self, rig: &Rig) -> Result<(), RigError> {
-        let name = self.kind().name();
-        let separated = |field: &str, e: f64| match e > 0.0 {
-            true => Ok(()),
-            false => Err(RigError::new(field, format!("more than 0 with projection {name}"), e)),
-        };
         match self {
             Projection::TwoCentres | Projection::Shear | Projection::Translate => Ok(()),
             Projection::Symmetric => {
-                separated("eye_separation", rig.eye_separation)?;
                 if rig.head_tilt != 0.0 {
                     let expected = "0 with projection symmetric, which cuts columns off";
                     return Err(RigError::new("head_tilt", expected, rig.head_tilt));
                 }
                 Ok(())
             }
-            Projection::Asymptotic(a) => {
-                a.check(rig)?;
-                separated("eye_separation", self.viewer(rig).eye_distance)
-            }
-            Projection::Piecewise(p) => {
-                p.check(rig)?;
-                separated("eye_separation", self.viewer(rig).eye_distance)
-            }
+            Projection::Asymptotic(a) => a.check(rig),
+            Projection::Piecewise(p) => p.check(rig),
         }
     }
 }
