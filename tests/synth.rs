@@ -57,7 +57,7 @@ fn a_unit_that_grows_is_noticed() {
         copy.path(),
         "sam_blend.v",
         "factor_background_q <= pixel_background_i",
-        "factor_background_q <= pixel_background_i + 24'd12345",
+        "factor_background_q <= pixel_background_i + pixel_rgb_i",
     );
     let faults = record().faults(&[gates(copy.path(), Target::Blend, "paper")]);
     assert_eq!(faults.len(), 2, "one in each library: {faults:?}");

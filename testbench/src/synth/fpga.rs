@@ -161,7 +161,7 @@ fn cells(stat: &str, chip: &Chip) -> Figures {
         .collect();
     let weigh = |kinds: &[(&str, f64)]| -> f64 {
         let weight = |cell: &str| kinds.iter().find(|(name, _)| cell.starts_with(name));
-        rows.iter().filter_map(|(cell, n)| Some(n * weight(cell)?.1)).sum()
+        rows.iter().filter_map(|(cell, n)| Some(n * weight(cell)?.1)).fold(0.0, |sum, n| sum + n)
     };
     chip.cells.iter().map(|(figure, kinds)| (*figure, weigh(kinds))).collect()
 }
