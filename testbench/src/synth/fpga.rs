@@ -91,7 +91,7 @@ pub(super) fn measure(design: &Design<'_>, chip: &Chip) -> Result<Figures, Synth
 
 /// Whether the placer gave up for want of room.
 fn is_too_large(lines: &str) -> bool {
-    ["nable to place", "no BELs remaining", "ailed to place"]
+    ["nable to place", "no BELs remaining", "ailed to place", "ailed to expand region"]
         .iter()
         .any(|said| lines.contains(said))
 }
