@@ -6,11 +6,11 @@
 // A primary pixel passes the queue, unless that would change the order of its eye's pixels. The
 // payload that blend does not need goes along with the pixel in stages of its own.
 //
-// A slot whose secondary falls where a pixel under way does, of the same eye, waits until none is
-// under way: so memory which reads in order never answers with what has since been overwritten.
+// A secondary that falls where a pixel under way does, of the same eye, waits until none is under
+// way: so memory which reads in order never answers with what has since been overwritten.
 //
 // Latency: none from slot to request and from a primary to out; one clock from response to pixel,
-// none from colour to out.
+// none with fewer than 8 slots; none from colour to out.
 // Reset: rst_i empties the queue; no data is reset.
 // Paper: section 5.7 (background), 6 (synchronisation of the pipelines).
 `include "sam_formats.vh"
@@ -119,6 +119,9 @@ module sam_slot_queue #(
     localparam P = 2 * C + 1;
     localparam K = 1 + A + D;
     localparam E = 1 + `SAM_RGBA_BITS + K;
+    // A short queue saves a register between memory and blend, and takes a pixel in the clock in which
+    // one leaves; a long one is for a chip where either would be the longest path.
+    localparam SHORT = SLOTS < 8;
 
     wire [P-1:0] primary_place   = {slot_eye_i, slot_primary_x_i, slot_primary_y_i};
     wire [P-1:0] secondary_place = {~slot_eye_i, slot_secondary_x_i, slot_secondary_y_i};
@@ -137,9 +140,7 @@ module sam_slot_queue #(
     wire         full        = enter_q == {~leave_q[N], leave_index};
     wire         push, pop;
 
-    // A short queue takes a pixel in the clock in which one leaves; of a long one this would be the
-    // longest path.
-    wire         room        = ~full | ((SLOTS < 8) & pop);
+    wire         room        = ~full | (SHORT & pop);
 
     // What of the slot is gone already, and what goes now. A primary that goes through the queue is
     // there before its secondary. Unless both go to one display, one with a secondary waits instead
@@ -188,6 +189,13 @@ module sam_slot_queue #(
         if (push) rest_q[enter_index] <= enter_rest;
     end
 
+    // Places are compared by their low bits, which differ where pixels are near each other: others
+    // wait in vain once in a thousand times.
+    localparam M = 11;
+    wire [M-1:0] next_mark      = {next_eye_i, next_x_i[5:0], next_y_i[3:0]};
+    wire [M-1:0] primary_mark   = {slot_eye_i, slot_primary_x_i[5:0], slot_primary_y_i[3:0]};
+    wire [M-1:0] secondary_mark = {~slot_eye_i, slot_secondary_x_i[5:0], slot_secondary_y_i[3:0]};
+
     wire [P-1:0]     place [0:SLOTS-1];
     wire [SLOTS-1:0] same_eye, same_place;
 
@@ -198,7 +206,7 @@ module sam_slot_queue #(
 
             assign place[i]      = place_q;
             assign same_eye[i]   = occupied_q[i] & (place_q[P-1] == slot_eye_i);
-            assign same_place[i] = occupied_q[i] & (place_q == {next_eye_i, next_x_i, next_y_i});
+            assign same_place[i] = occupied_q[i] & ({place_q[P-1], place_q[C +: 6], place_q[3:0]} == next_mark);
 
             always @(posedge clk_i) begin
                 if (push & (enter_index == i)) place_q <= enter_place;
@@ -217,10 +225,9 @@ module sam_slot_queue #(
 
     // The next slot is compared with all that is under way and with the slot before it. As that
     // takes a clock, what it finds may have left since.
-    wire [P-1:0] next_place = {next_eye_i, next_x_i, next_y_i};
-    wire         meets      = (same_place != {SLOTS{1'b0}}) | (stage_same != 3'd0)
-                            | (slot_valid_i & slot_primary_i & (primary_place == next_place))
-                            | (slot_valid_i & slot_secondary_i & (secondary_place == next_place));
+    wire meets = (same_place != {SLOTS{1'b0}}) | (stage_same != 3'd0)
+               | (slot_valid_i & slot_primary_i & (primary_mark == next_mark))
+               | (slot_valid_i & slot_secondary_i & (secondary_mark == next_mark));
 
     always @(posedge clk_i) begin
         if (slot_ready_o) waits_q <= meets;
@@ -246,13 +253,31 @@ module sam_slot_queue #(
     assign pixel_area_o = pixel_kept[1 + D +: A];
     assign pop          = (answer_valid & answer_ready) | (primary_first & out_taken);
 
-    // Between memory and blend, whose multipliers have fixed places on a chip and are far from both.
-    sam_stage #(.WIDTH(1 + 2 * `SAM_RGB_BITS + 8 + K + P)) u_answer (
-        .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(answer_valid), .in_ready_o(answer_ready),
-        .in_data_i({visible, response_rgb_i, first_rgba, first_kept, first_place}),
-        .out_valid_o(pixel_valid_o), .out_ready_i(pixel_ready_i),
-        .out_data_o({pixel_visible_o, pixel_background_o, pixel_rgba_o, pixel_kept, stage_place[0]})
-    );
+    localparam W = 1 + 2 * `SAM_RGB_BITS + 8 + K + P;
+    wire [W-1:0] answer = {visible, response_rgb_i, first_rgba, first_kept, first_place};
+    wire [W-1:0] pixel;
+    wire [P-1:0] pixel_place;
+
+    assign {pixel_visible_o, pixel_background_o, pixel_rgba_o, pixel_kept, pixel_place} = pixel;
+
+    generate
+        if (SHORT) begin : g_no_answer
+            assign pixel_valid_o  = answer_valid;
+            assign answer_ready   = pixel_ready_i;
+            assign pixel          = answer;
+            assign stage_valid[0] = 1'b0;
+        end else begin : g_answer
+            // Between memory and blend, whose multipliers have fixed places on a chip and are far
+            // from both.
+            sam_stage #(.WIDTH(W)) u_answer (
+                .clk_i(clk_i), .rst_i(rst_i),
+                .in_valid_i(answer_valid), .in_ready_o(answer_ready), .in_data_i(answer),
+                .out_valid_o(pixel_valid_o), .out_ready_i(pixel_ready_i), .out_data_o(pixel)
+            );
+            assign stage_valid[0] = pixel_valid_o;
+        end
+    endgenerate
+    assign stage_place[0] = pixel_place;
 
     // In step with the two stages of blend.
     wire         step_ready, factor_ready, colour_valid;
@@ -263,7 +288,7 @@ module sam_slot_queue #(
 
     sam_stage #(.WIDTH(8 + K + P)) u_factor (
         .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(pixel_valid_o), .in_ready_o(step_ready),
-        .in_data_i({pixel_alpha, pixel_kept, stage_place[0]}),
+        .in_data_i({pixel_alpha, pixel_kept, pixel_place}),
         .out_valid_o(stage_valid[1]), .out_ready_i(factor_ready),
         .out_data_o({factor_alpha, factor_kept, stage_place[1]})
     );
@@ -273,12 +298,12 @@ module sam_slot_queue #(
         .out_valid_o(colour_valid), .out_ready_i(colour_ready_o),
         .out_data_o({colour_alpha, colour_kept, stage_place[2]})
     );
-    assign {stage_valid[2], stage_valid[0]} = {colour_valid, pixel_valid_o};
+    assign stage_valid[2] = colour_valid;
 
     generate
         for (i = 0; i < 3; i = i + 1) begin : g_stage
             assign stage_eye[i]  = stage_valid[i] & (stage_place[i][P-1] == slot_eye_i);
-            assign stage_same[i] = stage_valid[i] & (stage_place[i] == next_place);
+            assign stage_same[i] = stage_valid[i] & ({stage_place[i][P-1], stage_place[i][C +: 6], stage_place[i][3:0]} == next_mark);
         end
     endgenerate
 
@@ -306,7 +331,7 @@ module sam_slot_queue #(
     assign out_primary_depth_o  = slot_primary_depth_i;
     assign out_primary_write_o  = slot_primary_write_i;
 
-    wire unused = &{1'b0, step_ready};
+    wire unused = &{1'b0, step_ready, next_x_i, next_y_i};
 endmodule
 
 `default_nettype wire

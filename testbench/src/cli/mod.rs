@@ -102,7 +102,8 @@ enum Command {
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
     Doctor(info::DoctorArgs),
-    /// Write rtl/sam_formats.vh and the tables of docs/ anew from the golden model's definitions
+    /// Write rtl/sam_formats.vh and the tables of docs/ and README.md anew from the golden model's
+    /// definitions and the record of synth
     Generate(generate::GenerateArgs),
 }
 
