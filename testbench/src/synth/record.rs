@@ -231,8 +231,11 @@ mod tests {
     fn growth_slowing_and_gaps_are_told() {
         let mut record = Record::default();
         let old = entry(&[(Figure::Luts, 1000.0), (Figure::Fmax, 150.0)]);
-        assert_eq!(record.faults(&[old.clone()]), ["filter paper ecp5: not in synth/record.json"]);
-        record.update(&[old.clone()]);
+        assert_eq!(
+            record.faults(std::slice::from_ref(&old)),
+            ["filter paper ecp5: not in synth/record.json"]
+        );
+        record.update(std::slice::from_ref(&old));
         let faults =
             |luts, fmax| record.faults(&[entry(&[(Figure::Luts, luts), (Figure::Fmax, fmax)])]);
         assert!(faults(1020.0, 135.0).is_empty() && faults(500.0, 300.0).is_empty());
