@@ -6,8 +6,8 @@
 //   S3                  coverage, choice of colour and depth -> slot
 //       slot -> slot queue -> request     response -> blend -> redirect -> left, right
 //
-// Latency: four clocks to `request`, and two from `response` to `left` and `right`; the first
-// stage waits for the next beat (or `last`).
+// Latency: three clocks to `request`, and three from `response` to `left` and `right`, two with
+// fewer than 8 slots; the first stage waits for the next beat (or `last`).
 // Reset: rst_i clears the stages' valids, empties the queue, clears redirect's notes and the
 // error, and makes beats void until a LOAD; no data is reset.
 // Paper: section 5, figure 4.

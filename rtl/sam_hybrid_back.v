@@ -3,7 +3,8 @@
 //
 //   coverage, choice of colour and depth -> slot -> slot queue, blend -> redirect
 //
-// Latency: two clocks to `request`, three from `response` to `left` and `right`.
+// Latency: one clock to `request`, three from `response` to `left` and `right`, or two with fewer
+// than 8 slots.
 // Reset: rst_i empties stages and queue; no data is reset.
 // Paper: section 5, figure 4.
 `include "sam_formats.vh"
@@ -162,15 +163,12 @@ module sam_hybrid_back #(
         slot_average_rgb ? slot_average[`SAM_RGB_BITS-1:0] : slot_plain[`SAM_RGB_BITS-1:0]
     };
 
-    wire           answer_valid, answer_ready, answer_visible;
-    wire [RB-1:0]  answer_rgba;
-    wire [AB-1:0]  answer_area;
     wire           pixel_valid, pixel_ready, pixel_visible, colour_valid, colour_ready, colour_visible;
     wire [RB-1:0]  pixel_rgba;
     wire [AB-1:0]  pixel_area;
     wire [`SAM_RGB_BITS-1:0] pixel_background;
     wire [`SAM_RGB_BITS-1:0] colour_rgb;
-    wire           out_valid, out_ready, out_primary, out_secondary, out_eye;
+    wire           out_valid, out_ready, out_primary, out_secondary, out_blended, out_eye;
     wire           out_primary_write, out_secondary_write;
     wire [C-1:0]   out_primary_x, out_primary_y, out_secondary_x, out_secondary_y;
     wire [RB-1:0]  out_primary_rgba, out_secondary_rgba;
@@ -181,7 +179,8 @@ module sam_hybrid_back #(
         .SUBPIXEL_BITS(SUBPIXEL_BITS), .ANTIALIAS(ANTIALIAS), .DEPTH_EXTERNAL(DEPTH_EXTERNAL),
         .SLOTS(SLOTS)
     ) u_slot_queue (
-        .clk_i(clk_i), .rst_i(rst_i),
+        .clk_i(clk_i), .rst_i(rst_i), .single_i(single_i),
+        .next_eye_i(~s2_eye_i), .next_x_i(column_i), .next_y_i(row_i),
         .slot_valid_i(slot_valid), .slot_ready_o(slot_ready),
         .slot_primary_i(slot_primary), .slot_secondary_i(slot_secondary), .slot_eye_i(slot_eye),
         .slot_primary_x_i(slot_primary_place[C +: C]), .slot_primary_y_i(slot_primary_place[0 +: C]),
@@ -195,28 +194,20 @@ module sam_hybrid_back #(
         .request_valid_o(request_valid_o), .request_ready_i(request_ready_i),
         .request_eye_o(request_eye_o), .request_x_o(request_x_o), .request_y_o(request_y_o),
         .response_valid_i(response_valid_i), .response_ready_o(response_ready_o),
-        .response_depth_i(response_depth_i),
-        .pixel_valid_o(answer_valid), .pixel_ready_i(answer_ready), .pixel_rgba_o(answer_rgba),
-        .pixel_area_o(answer_area), .pixel_visible_o(answer_visible),
+        .response_rgb_i(response_rgb_i), .response_depth_i(response_depth_i),
+        .pixel_valid_o(pixel_valid), .pixel_ready_i(pixel_ready), .pixel_rgba_o(pixel_rgba),
+        .pixel_area_o(pixel_area), .pixel_background_o(pixel_background),
+        .pixel_visible_o(pixel_visible),
         .colour_valid_i(colour_valid), .colour_ready_o(colour_ready), .colour_rgb_i(colour_rgb),
         .colour_visible_i(colour_visible),
         .out_valid_o(out_valid), .out_ready_i(out_ready), .out_primary_o(out_primary),
-        .out_secondary_o(out_secondary), .out_eye_o(out_eye),
+        .out_secondary_o(out_secondary), .out_blended_o(out_blended), .out_eye_o(out_eye),
         .out_primary_x_o(out_primary_x), .out_primary_y_o(out_primary_y),
         .out_primary_rgba_o(out_primary_rgba), .out_primary_area_o(out_primary_area),
         .out_primary_depth_o(out_primary_depth), .out_primary_write_o(out_primary_write),
         .out_secondary_x_o(out_secondary_x), .out_secondary_y_o(out_secondary_y),
         .out_secondary_rgba_o(out_secondary_rgba), .out_secondary_area_o(out_secondary_area),
         .out_secondary_depth_o(out_secondary_depth), .out_secondary_write_o(out_secondary_write)
-    );
-
-    // Between memory and blend, whose multipliers have fixed places on a chip and are far from both.
-    sam_stage #(.WIDTH(1 + RB + AB + `SAM_RGB_BITS)) u_answer (
-        .clk_i(clk_i), .rst_i(rst_i),
-        .in_valid_i(answer_valid), .in_ready_o(answer_ready),
-        .in_data_i({answer_visible, answer_rgba, answer_area, response_rgb_i}),
-        .out_valid_o(pixel_valid), .out_ready_i(pixel_ready),
-        .out_data_o({pixel_visible, pixel_rgba, pixel_area, pixel_background})
     );
 
     sam_blend #(.ANTIALIAS(ANTIALIAS), .TAG_BITS(1)) u_blend (
@@ -238,7 +229,7 @@ module sam_hybrid_back #(
         .slot_secondary_x_i(out_secondary_x), .slot_secondary_y_i(out_secondary_y),
         .slot_secondary_rgba_i(out_secondary_rgba), .slot_secondary_area_i(out_secondary_area),
         .slot_secondary_depth_i(out_secondary_depth), .slot_secondary_write_i(out_secondary_write),
-        .slot_secondary_blended_i(1'b1),
+        .slot_secondary_blended_i(out_blended),
         .left_valid_o(left_valid_o), .left_ready_i(left_ready_i), .left_eye_o(left_eye_o),
         .left_x_o(left_x_o), .left_y_o(left_y_o), .left_rgba_o(left_rgba_o),
         .left_area_o(left_area_o), .left_depth_o(left_depth_o), .left_write_o(left_write_o),

@@ -100,8 +100,9 @@ module sam_redirect #(
             primary_gone_q   <= 1'b0;
             secondary_gone_q <= 1'b0;
         end else begin
-            primary_gone_q   <= slot_valid_i & primary_done & ~secondary_done;
-            secondary_gone_q <= slot_valid_i & secondary_done & ~primary_done;
+            // Only one that was there: the other one may join a slot that waits.
+            primary_gone_q   <= slot_valid_i & slot_primary_i & primary_done & ~secondary_done;
+            secondary_gone_q <= slot_valid_i & slot_secondary_i & secondary_done & ~primary_done;
         end
     end
 

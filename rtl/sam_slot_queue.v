@@ -1,13 +1,17 @@
-// Queue between the background read of a secondary pixel and the pixel's output: holds slots of a
-// primary and a secondary pixel in order while reads and blending are under way.
+// Queue between the background read of a secondary pixel and the pixel's output.
 //
-//   slot -> memory, request     response -> depth test, pixel -> (blend) -> colour, out
+//   slot, secondary -> request, queue     response -> depth test, u_answer -> (blend) -> out
+//   slot, primary ---> out, or into the queue where a pixel of its eye is before it
 //
-// A read waits while a slot in the queue holds a pixel of the same eye at the same place, so that
-// memory which reads in order never answers with what has since been overwritten.
+// A primary pixel passes the queue, unless that would change the order of its eye's pixels. The
+// payload that blend does not need goes along with the pixel in stages of its own.
 //
-// Latency: one clock from slot to request; none from response to pixel and from colour to out.
-// Reset: rst_i empties the queue; what the memory holds stays.
+// A secondary that falls where a pixel under way does, of the same eye, waits until none is under
+// way: so memory which reads in order never answers with what has since been overwritten.
+//
+// Latency: none from slot to request and from a primary to out; one clock from response to pixel,
+// none with fewer than 8 slots; none from colour to out.
+// Reset: rst_i empties the queue; no data is reset.
 // Paper: section 5.7 (background), 6 (synchronisation of the pipelines).
 `include "sam_formats.vh"
 `default_nettype none
@@ -24,6 +28,12 @@ module sam_slot_queue #(
 ) (
     input  wire                                           clk_i,
     input  wire                                           rst_i,
+    input  wire                                           single_i,
+
+    // Where the secondary of the next slot is and whose it is: compared a clock ahead.
+    input  wire                                           next_eye_i,
+    input  wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] next_x_i,
+    input  wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] next_y_i,
 
     input  wire                                           slot_valid_i,
     output wire                                           slot_ready_o,
@@ -51,13 +61,15 @@ module sam_slot_queue #(
 
     input  wire                                           response_valid_i,
     output wire                                           response_ready_o,
+    input  wire [`SAM_RGB_BITS-1:0]                       response_rgb_i,
     input  wire [`SAM_DEPTH_BITS-1:0]                     response_depth_i,
 
-    // To blend, whose background is the response's colour; `visible` comes back with the colour.
+    // To blend; `visible` comes back with the colour.
     output wire                                           pixel_valid_o,
     input  wire                                           pixel_ready_i,
     output wire [`SAM_RGBA_BITS-1:0]                      pixel_rgba_o,
     output wire [`SAM_AREA_BITS(ANTIALIAS)-1:0]           pixel_area_o,
+    output wire [`SAM_RGB_BITS-1:0]                       pixel_background_o,
     output wire                                           pixel_visible_o,
     input  wire                                           colour_valid_i,
     output wire                                           colour_ready_o,
@@ -68,6 +80,7 @@ module sam_slot_queue #(
     input  wire                                           out_ready_i,
     output wire                                           out_primary_o,
     output wire                                           out_secondary_o,
+    output wire                                           out_blended_o,
     output wire                                           out_eye_o,
     output wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] out_primary_x_o,
     output wire [`SAM_COORDINATE_BITS(SUBPIXEL_BITS)-1:0] out_primary_y_o,
@@ -102,185 +115,223 @@ module sam_slot_queue #(
         end
     endgenerate
 
-    // Where slots enter, where a response is due, where slots leave. One bit more than an index
-    // has, to tell a full queue from an empty one.
-    reg [N:0] enter_q;
-    reg [N:0] answer_q;
-    reg [N:0] leave_q;
+    // A place with its eye, and a pixel in the queue.
+    localparam P = 2 * C + 1;
+    localparam K = 1 + A + D;
+    localparam E = 1 + `SAM_RGBA_BITS + K;
+    // A short queue saves a register between memory and blend, and takes a pixel in the clock in which
+    // one leaves; a long one is for a chip where either would be the longest path.
+    localparam SHORT = SLOTS < 8;
 
-    wire [N-1:0] enter_index  = enter_q[N-1:0];
-    wire [N-1:0] answer_index = answer_q[N-1:0];
-    wire [N-1:0] leave_index  = leave_q[N-1:0];
+    wire [P-1:0] primary_place   = {slot_eye_i, slot_primary_x_i, slot_primary_y_i};
+    wire [P-1:0] secondary_place = {~slot_eye_i, slot_secondary_x_i, slot_secondary_y_i};
 
-    wire empty   = enter_q == leave_q;
-    wire settled = enter_q == answer_q;
+    // Under way: the queue, then a stage before blend and two beside it.
+    reg  [N:0]       enter_q;
+    reg  [N:0]       leave_q;
+    reg  [SLOTS-1:0] occupied_q;
+    wire [2:0]       stage_valid;
+    wire [P-1:0]     stage_place [0:2];
 
-    wire push, pop;
+    wire [N-1:0] enter_index = enter_q[N-1:0];
+    wire [N-1:0] leave_index = leave_q[N-1:0];
+    wire         empty       = enter_q == leave_q;
+    wire         idle        = empty & (stage_valid == 3'd0);
+    wire         full        = enter_q == {~leave_q[N], leave_index};
+    wire         push, pop;
 
-    // A slot enters while there is a place for it and for the read of a secondary. Kept in a register
-    // of its own, as all stages before wait for it.
-    reg        room_q;
-    reg        full_q;
-    wire [N:0] enter_next = enter_q + {{N{1'b0}}, 1'b1};
-    wire       last_place = enter_next == {~leave_q[N], leave_index};
-    wire       full_d     = (full_q | (push & last_place)) & ~pop;
-    wire       next_d;
+    wire         room        = ~full | (SHORT & pop);
 
-    // Memories by who reads: blend, both, the output. The free place is written whether a
-    // slot enters or not, which keeps the path to the write enables short.
-    reg [`SAM_RGB_BITS-1:0]              source_q [0:SLOTS-1];
-    reg [A+D+7:0]                        tested_q [0:SLOTS-1];
-    reg [4*C+`SAM_RGBA_BITS+A+D+1:0]     placed_q [0:SLOTS-1];
-    reg [2:0]                            flags_q [0:SLOTS-1];
+    // What of the slot is gone already, and what goes now. A primary that goes through the queue is
+    // there before its secondary. Unless both go to one display, one with a secondary waits instead
+    // until it can pass: those after it would never pass again.
+    reg          primary_gone_q;
+    reg          secondary_gone_q;
+    reg          waits_q;
+    wire         held;
+    wire         out_taken;
+    wire primary_here   = slot_valid_i & slot_primary_i & ~primary_gone_q;
+    wire secondary_here = slot_valid_i & slot_secondary_i & ~secondary_gone_q;
+    wire passes         = primary_here & ~held;
+    wire queued         = primary_here & held & (single_i | ~slot_secondary_i);
+    wire primary_done   = ~primary_here | (held ? queued & room : out_taken);
+    wire secondary_done = ~secondary_here | (request_valid_o & request_ready_i);
 
-    always @(posedge clk_i) begin
-        if (room_q) begin
-            source_q[enter_index] <= slot_secondary_rgba_i[`SAM_RGB_BITS-1:0];
-            tested_q[enter_index] <= {
-                slot_secondary_rgba_i[`SAM_RGBA_BITS-1:`SAM_RGB_BITS],
-                slot_secondary_area_i, slot_secondary_depth_i
-            };
-            placed_q[enter_index] <= {
-                slot_primary_write_i, slot_secondary_write_i,
-                slot_primary_x_i, slot_primary_y_i, slot_primary_rgba_i, slot_primary_area_i,
-                slot_primary_depth_i, slot_secondary_x_i, slot_secondary_y_i
-            };
-            flags_q[enter_index] <= {slot_primary_i, slot_secondary_i, slot_eye_i};
-        end
-    end
-
-    // Response: passes over slots without a secondary, one a clock.
-    wire         answer_secondary = flags_q[answer_index][1];
-    wire [7:0]   answer_alpha;
-    wire [D-1:0] answer_depth;
-
-    assign {answer_alpha, pixel_area_o, answer_depth} = tested_q[answer_index];
-
-    wire answered = response_valid_i & pixel_ready_i;
-
-    assign pixel_valid_o    = response_valid_i & ~settled & answer_secondary;
-    assign response_ready_o = pixel_ready_i & ~settled & answer_secondary;
-    assign pixel_rgba_o     = {answer_alpha, source_q[answer_index]};
-    assign pixel_visible_o  = (DEPTH_EXTERNAL != 0) | (answer_depth < response_depth_i);
-
-    // Output: a slot with a secondary waits for its colour. What decides whether it leaves is read a
-    // clock before it is first in the queue, or taken from a slot that enters just then.
-    reg  [2:0]   head_q;
-    wire [2:0]   enter_flags = {slot_primary_i, slot_secondary_i, slot_eye_i};
-    wire [N:0]   leave_next  = leave_q + {{N{1'b0}}, 1'b1};
-    wire [2:0]   head        = empty ? enter_flags : flags_q[leave_index];
-    wire [2:0]   second      = enter_q == leave_next ? enter_flags : flags_q[leave_next[N-1:0]];
-    wire         leave_secondary;
-    wire [7:0]   leave_alpha;
-
-    always @(posedge clk_i) head_q <= pop ? second : head;
-
-    assign {out_primary_o, leave_secondary, out_eye_o} = head_q;
-    assign {leave_alpha, out_secondary_area_o, out_secondary_depth_o} = tested_q[leave_index];
-    assign {
-        out_primary_write_o, out_secondary_write_o,
-        out_primary_x_o, out_primary_y_o, out_primary_rgba_o, out_primary_area_o,
-        out_primary_depth_o, out_secondary_x_o, out_secondary_y_o
-    } = placed_q[leave_index];
-    assign out_valid_o          = ~empty & (~leave_secondary | colour_valid_i);
-    assign out_secondary_o      = leave_secondary & colour_visible_i;
-    assign out_secondary_rgba_o = {leave_alpha, colour_rgb_i};
-    assign colour_ready_o       = ~empty & leave_secondary & out_ready_i;
-    assign pop                  = out_valid_o & out_ready_i;
-
-    // Read: which slots hold its place is found when it enters; it then waits for them to leave. A
-    // second read waits behind the first, so that slots enter without waiting for request_ready_i.
-    reg              read_q;
-    reg [2*C:0]      read_place_q;
-    reg [SLOTS-1:0]  blocked_q;
-    reg              next_q;
-    reg [2*C:0]      next_place_q;
-    reg [SLOTS-1:0]  next_blocked_q;
-    wire [SLOTS-1:0] same_place;
-    wire [SLOTS-1:0] left;
-    reg              pop_q;
-    reg [N-1:0]      left_index_q;
-
-    wire             enter_read    = push & slot_secondary_i;
-    wire [2*C:0]     enter_place   = {~slot_eye_i, slot_secondary_x_i, slot_secondary_y_i};
-    wire             keep          = read_q & ~(request_valid_o & request_ready_i);
-
-    assign push            = slot_valid_i & slot_ready_o;
-    assign slot_ready_o    = room_q;
-    assign next_d          = keep & (next_q | enter_read);
-    assign request_valid_o = read_q & (blocked_q == {SLOTS{1'b0}});
-    assign {request_eye_o, request_x_o, request_y_o} = read_place_q;
+    assign request_valid_o = secondary_here & ~queued & room & ~waits_q;
+    assign {request_eye_o, request_x_o, request_y_o} = secondary_place;
+    assign push            = (queued & room) | (request_valid_o & request_ready_i);
+    assign slot_ready_o    = ~slot_valid_i | (primary_done & secondary_done);
 
     always @(posedge clk_i) begin
         if (rst_i) begin
-            enter_q  <= {(N + 1){1'b0}};
-            answer_q <= {(N + 1){1'b0}};
-            leave_q  <= {(N + 1){1'b0}};
-            room_q   <= 1'b1;
-            full_q   <= 1'b0;
-            read_q   <= 1'b0;
-            next_q   <= 1'b0;
-            pop_q    <= 1'b0;
+            enter_q          <= {(N + 1){1'b0}};
+            leave_q          <= {(N + 1){1'b0}};
+            primary_gone_q   <= 1'b0;
+            secondary_gone_q <= 1'b0;
         end else begin
-            room_q <= ~full_d & ~next_d;
-            full_q <= full_d;
-            if (push) enter_q <= enter_next;
-            if (~settled & (~answer_secondary | answered)) answer_q <= answer_q + {{N{1'b0}}, 1'b1};
-            pop_q  <= pop;
-            if (pop) leave_q <= leave_next;
-            read_q <= keep | next_q | enter_read;
-            next_q <= next_d;
-        end
-
-        left_index_q <= leave_index;
-        if (~keep) begin
-            read_place_q <= next_q ? next_place_q : enter_place;
-            blocked_q    <= next_q ? next_blocked_q & ~left : same_place & ~left;
-        end else begin
-            blocked_q    <= blocked_q & ~left;
-        end
-        if (~next_q) begin
-            next_place_q   <= enter_place;
-            next_blocked_q <= same_place & ~left;
-        end else begin
-            next_blocked_q <= next_blocked_q & ~left;
+            if (push) enter_q <= enter_q + {{N{1'b0}}, 1'b1};
+            if (pop)  leave_q <= leave_q + {{N{1'b0}}, 1'b1};
+            primary_gone_q   <= ~slot_ready_o & slot_primary_i & primary_done;
+            secondary_gone_q <= ~slot_ready_o & slot_secondary_i & secondary_done;
         end
     end
 
-    // The places are kept a second time in registers, as all are compared at once.
+    // The queue: what all are compared by in registers, the rest in a memory.
+    reg [E-1:0] rest_q [0:SLOTS-1];
+
+    wire [P-1:0] enter_place = queued ? primary_place : secondary_place;
+    wire [E-1:0] enter_rest  = queued
+        ? {1'b0, slot_primary_rgba_i, slot_primary_area_i, slot_primary_depth_i, slot_primary_write_i}
+        : {1'b1, slot_secondary_rgba_i, slot_secondary_area_i, slot_secondary_depth_i,
+           slot_secondary_write_i};
+
+    always @(posedge clk_i) begin
+        if (push) rest_q[enter_index] <= enter_rest;
+    end
+
+    // Places are compared by their low bits, which differ where pixels are near each other: others
+    // wait in vain once in a thousand times.
+    localparam M = 11;
+    wire [M-1:0] next_mark      = {next_eye_i, next_x_i[5:0], next_y_i[3:0]};
+    wire [M-1:0] primary_mark   = {slot_eye_i, slot_primary_x_i[5:0], slot_primary_y_i[3:0]};
+    wire [M-1:0] secondary_mark = {~slot_eye_i, slot_secondary_x_i[5:0], slot_secondary_y_i[3:0]};
+
+    wire [P-1:0]     place [0:SLOTS-1];
+    wire [SLOTS-1:0] same_eye, same_place;
+
     genvar i;
     generate
         for (i = 0; i < SLOTS; i = i + 1) begin : g_place
-            reg           occupied_q;
-            reg           primary_q;
-            reg           secondary_q;
-            reg           eye_q;
-            reg [2*C-1:0] primary_place_q;
-            reg [2*C-1:0] secondary_place_q;
+            reg [P-1:0] place_q;
 
-            // The secondary that enters is of the eye that is not `slot_eye_i`.
-            wire           other = eye_q != slot_eye_i;
-            wire           held  = other ? primary_q : secondary_q;
-            wire [2*C-1:0] place = other ? primary_place_q : secondary_place_q;
-
-            // That a slot left is noted a clock late, which keeps the path from the output short.
-            assign left[i]       = pop_q & (left_index_q == i);
-            assign same_place[i] = occupied_q & held & (place == {slot_secondary_x_i, slot_secondary_y_i});
+            assign place[i]      = place_q;
+            assign same_eye[i]   = occupied_q[i] & (place_q[P-1] == slot_eye_i);
+            assign same_place[i] = occupied_q[i] & ({place_q[P-1], place_q[C +: 6], place_q[3:0]} == next_mark);
 
             always @(posedge clk_i) begin
-                if (rst_i) occupied_q <= 1'b0;
-                else       occupied_q <= (push & (enter_index == i)) | (occupied_q & ~left[i]);
+                if (push & (enter_index == i)) place_q <= enter_place;
 
-                if (room_q & (enter_index == i)) begin
-                    primary_q         <= slot_primary_i;
-                    secondary_q       <= slot_secondary_i;
-                    eye_q             <= slot_eye_i;
-                    primary_place_q   <= {slot_primary_x_i, slot_primary_y_i};
-                    secondary_place_q <= {slot_secondary_x_i, slot_secondary_y_i};
-                end
+                if (rst_i) occupied_q[i] <= 1'b0;
+                else       occupied_q[i] <= (push & (enter_index == i))
+                                          | (occupied_q[i] & ~(pop & (leave_index == i)));
             end
         end
     endgenerate
+
+    // Whether a pixel of the primary's eye is under way, or all go to one display.
+    wire [2:0] stage_eye, stage_same;
+
+    assign held = single_i | (same_eye != {SLOTS{1'b0}}) | (stage_eye != 3'd0);
+
+    // The next slot is compared with all that is under way and with the slot before it. As that
+    // takes a clock, what it finds may have left since.
+    wire meets = (same_place != {SLOTS{1'b0}}) | (stage_same != 3'd0)
+               | (slot_valid_i & slot_primary_i & (primary_mark == next_mark))
+               | (slot_valid_i & slot_secondary_i & (secondary_mark == next_mark));
+
+    always @(posedge clk_i) begin
+        if (slot_ready_o) waits_q <= meets;
+        else if (idle)    waits_q <= 1'b0;
+    end
+
+    // First in the queue: a secondary waits for its response, a primary until nothing is before it.
+    wire [P-1:0]               first_place = place[leave_index];
+    wire                       first_read;
+    wire [`SAM_RGBA_BITS-1:0]  first_rgba;
+    wire [K-1:0]               first_kept;
+    wire                       answer_valid, answer_ready, visible;
+
+    assign {first_read, first_rgba, first_kept} = rest_q[leave_index];
+    assign answer_valid     = response_valid_i & ~empty & first_read;
+    assign response_ready_o = answer_ready & ~empty & first_read;
+    assign visible          = (DEPTH_EXTERNAL != 0) | (first_kept[1 +: D] < response_depth_i);
+
+    wire       primary_first = ~empty & ~first_read & (stage_valid == 3'd0);
+    wire [7:0] pixel_alpha;
+    wire [K-1:0] pixel_kept;
+
+    assign pixel_area_o = pixel_kept[1 + D +: A];
+    assign pop          = (answer_valid & answer_ready) | (primary_first & out_taken);
+
+    localparam W = 1 + 2 * `SAM_RGB_BITS + 8 + K + P;
+    wire [W-1:0] answer = {visible, response_rgb_i, first_rgba, first_kept, first_place};
+    wire [W-1:0] pixel;
+    wire [P-1:0] pixel_place;
+
+    assign {pixel_visible_o, pixel_background_o, pixel_rgba_o, pixel_kept, pixel_place} = pixel;
+
+    generate
+        if (SHORT) begin : g_no_answer
+            assign pixel_valid_o  = answer_valid;
+            assign answer_ready   = pixel_ready_i;
+            assign pixel          = answer;
+            assign stage_valid[0] = 1'b0;
+        end else begin : g_answer
+            // Between memory and blend, whose multipliers have fixed places on a chip and are far
+            // from both.
+            sam_stage #(.WIDTH(W)) u_answer (
+                .clk_i(clk_i), .rst_i(rst_i),
+                .in_valid_i(answer_valid), .in_ready_o(answer_ready), .in_data_i(answer),
+                .out_valid_o(pixel_valid_o), .out_ready_i(pixel_ready_i), .out_data_o(pixel)
+            );
+            assign stage_valid[0] = pixel_valid_o;
+        end
+    endgenerate
+    assign stage_place[0] = pixel_place;
+
+    // In step with the two stages of blend.
+    wire         step_ready, factor_ready, colour_valid;
+    wire [7:0]   factor_alpha, colour_alpha;
+    wire [K-1:0] factor_kept, colour_kept;
+
+    assign pixel_alpha = pixel_rgba_o[`SAM_RGBA_BITS-1:`SAM_RGB_BITS];
+
+    sam_stage #(.WIDTH(8 + K + P)) u_factor (
+        .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(pixel_valid_o), .in_ready_o(step_ready),
+        .in_data_i({pixel_alpha, pixel_kept, pixel_place}),
+        .out_valid_o(stage_valid[1]), .out_ready_i(factor_ready),
+        .out_data_o({factor_alpha, factor_kept, stage_place[1]})
+    );
+    sam_stage #(.WIDTH(8 + K + P)) u_colour (
+        .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(stage_valid[1]), .in_ready_o(factor_ready),
+        .in_data_i({factor_alpha, factor_kept, stage_place[1]}),
+        .out_valid_o(colour_valid), .out_ready_i(colour_ready_o),
+        .out_data_o({colour_alpha, colour_kept, stage_place[2]})
+    );
+    assign stage_valid[2] = colour_valid;
+
+    generate
+        for (i = 0; i < 3; i = i + 1) begin : g_stage
+            assign stage_eye[i]  = stage_valid[i] & (stage_place[i][P-1] == slot_eye_i);
+            assign stage_same[i] = stage_valid[i] & ({stage_place[i][P-1], stage_place[i][C +: 6], stage_place[i][3:0]} == next_mark);
+        end
+    endgenerate
+
+    // Output: a primary that passes beside the pixel from the queue, which is of the other eye.
+    wire         out_eye;
+    wire [P-1:0] out_place;
+
+    assign out_place = primary_first ? first_place : stage_place[2];
+    assign {out_eye, out_secondary_x_o, out_secondary_y_o} = out_place;
+    assign {out_secondary_area_o, out_secondary_depth_o, out_secondary_write_o}
+        = primary_first ? first_kept : colour_kept;
+    assign out_secondary_rgba_o = primary_first ? first_rgba : {colour_alpha, colour_rgb_i};
+    assign out_blended_o        = ~primary_first;
+    assign out_secondary_o      = primary_first | (colour_valid_i & colour_visible_i);
+    assign out_primary_o        = passes;
+    assign out_eye_o            = out_secondary_o ? ~out_eye : slot_eye_i;
+    assign out_valid_o          = out_primary_o | out_secondary_o;
+    assign out_taken            = out_ready_i;
+    assign colour_ready_o       = ~colour_visible_i | out_ready_i;
+
+    assign out_primary_x_o      = slot_primary_x_i;
+    assign out_primary_y_o      = slot_primary_y_i;
+    assign out_primary_rgba_o   = slot_primary_rgba_i;
+    assign out_primary_area_o   = slot_primary_area_i;
+    assign out_primary_depth_o  = slot_primary_depth_i;
+    assign out_primary_write_o  = slot_primary_write_i;
+
+    wire unused = &{1'b0, step_ready, next_x_i, next_y_i};
 endmodule
 
 `default_nettype wire

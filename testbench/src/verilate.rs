@@ -336,14 +336,15 @@ impl Job<'_> {
 }
 
 /// Hashes two byte strings so that no other pair gives the same input.
-fn entry(hash: &mut blake3::Hasher, name: &[u8], content: &[u8]) {
+pub(crate) fn entry(hash: &mut blake3::Hasher, name: &[u8], content: &[u8]) {
     for bytes in [name, content] {
         hash.update(&(bytes.len() as u64).to_le_bytes());
         hash.update(bytes);
     }
 }
 
-fn short(hash: &blake3::Hasher) -> String {
+/// A hash as part of a file name.
+pub(crate) fn short(hash: &blake3::Hasher) -> String {
     hash.finalize().to_hex()[..24].to_owned()
 }
 

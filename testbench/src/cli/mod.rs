@@ -24,6 +24,7 @@ mod generate;
 mod info;
 mod render;
 mod reproduce;
+mod synth;
 mod vectors;
 mod waves;
 
@@ -31,6 +32,8 @@ use crate::generated::GenerateError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
 use crate::settings::{SettingError, Settings};
+use crate::synth::record::RecordError;
+use crate::synth::SynthError;
 use crate::tools::{ToolError, Toolchain};
 use crate::{BuildError, Builder};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -93,11 +96,14 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Compute the publications' tables and figures anew
     Reproduce(reproduce::ReproduceArgs),
+    /// Measure gates, LUTs and clock of targets, and compare with the committed record
+    Synth(synth::SynthArgs),
     /// List targets, configurations, parameters, scenes, projections and experiments
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
     Doctor(info::DoctorArgs),
-    /// Write rtl/sam_formats.vh and the tables of docs/ anew from the golden model's definitions
+    /// Write rtl/sam_formats.vh and the tables of docs/ and README.md anew from the golden model's
+    /// definitions and the record of synth
     Generate(generate::GenerateArgs),
 }
 
@@ -188,6 +194,10 @@ enum Failure {
     Regression(#[from] RegressionError),
     #[error(transparent)]
     Generate(#[from] GenerateError),
+    #[error(transparent)]
+    Synth(#[from] SynthError),
+    #[error(transparent)]
+    Record(#[from] RecordError),
     #[error("{0}")]
     Input(String),
 }
@@ -195,9 +205,9 @@ enum Failure {
 impl Failure {
     fn status(&self) -> u8 {
         match self {
-            Failure::Tool(_) | Failure::Regression(RegressionError::Build(BuildError::Tool(_))) => {
-                MISSING_TOOL
-            }
+            Failure::Tool(_)
+            | Failure::Synth(SynthError::Tool(_))
+            | Failure::Regression(RegressionError::Build(BuildError::Tool(_))) => MISSING_TOOL,
             _ => BAD_INPUT,
         }
     }
@@ -214,6 +224,7 @@ pub fn main() -> ExitCode {
         Command::Render(args) => render::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Reproduce(args) => reproduce::run(args),
+        Command::Synth(args) => synth::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
         Command::Generate(args) => generate::run(args),
@@ -295,26 +306,31 @@ fn choice<T: ValueEnum + PartialEq>(name: &str, value: T, default: T) -> Vec<Str
 impl Stimulus {
     /// The folder of the Verilog.
     fn rtl(&self) -> Result<PathBuf, Failure> {
-        if let Some(folder) = &self.rtl {
-            return Ok(folder.clone());
-        }
-        // As short as it can be: the name shows up in messages.
-        if Path::new(MARK).exists() {
-            return Ok("rtl".into());
-        }
-        workspace().map(|folder| folder.join("rtl")).ok_or_else(|| {
-            Failure::Input(
-                "no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into(),
-            )
-        })
+        rtl_folder(&self.rtl)
     }
+}
+
+/// The folder of the Verilog, if need be that of the workspace.
+fn rtl_folder(named: &Option<PathBuf>) -> Result<PathBuf, Failure> {
+    if let Some(folder) = named {
+        return Ok(folder.clone());
+    }
+    // As short as it can be: the name shows up in messages.
+    if Path::new(MARK).exists() {
+        return Ok("rtl".into());
+    }
+    workspace().map(|folder| folder.join("rtl")).ok_or_else(|| {
+        Failure::Input(
+            "no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into(),
+        )
+    })
 }
 
 /// The file by which a workspace is known.
 const MARK: &str = "rtl/sam_formats.vh";
 
 /// The workspace that the program is called in, or else the one that it was built from.
-fn workspace() -> Option<PathBuf> {
+pub(crate) fn workspace() -> Option<PathBuf> {
     let here = std::env::current_dir().unwrap_or_default();
     let source = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders = here.ancestors().chain(source.ancestors());
@@ -328,8 +344,10 @@ pub(crate) fn job<'a>(settings: &Settings, geometry: &'a Geometry, options: Opti
 
 /// A builder of models that tells on the terminal what it does.
 fn builder(quiet: bool) -> Result<Builder, Failure> {
-    let builder =
-        Builder::new(Toolchain::find()?, cache_folder(workspace(), |name| std::env::var_os(name)));
+    let builder = Builder::new(
+        Toolchain::find()?,
+        cache_folder(workspace(), Builder::CACHE, |name| std::env::var_os(name)),
+    );
     Ok(builder.on_progress(move |progress| {
         if !quiet {
             tell!("{progress}");
@@ -337,13 +355,14 @@ fn builder(quiet: bool) -> Result<Builder, Failure> {
     }))
 }
 
-/// Folder for built models: in the workspace, or else in the user's cache.
+/// Folder for what is built: `name` in the workspace, or else in the user's cache.
 fn cache_folder(
     workspace: Option<PathBuf>,
+    name: &str,
     variable: impl Fn(&str) -> Option<OsString>,
 ) -> PathBuf {
     if let Some(folder) = workspace {
-        return folder.join(Builder::CACHE);
+        return folder.join(name);
     }
     let folder = |name: &str| variable(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let caches = folder("XDG_CACHE_HOME").or_else(|| Some(folder("HOME")?.join(".cache")));
@@ -426,7 +445,7 @@ mod tests {
     #[test]
     fn models_are_kept_in_the_workspace_or_in_the_cache_of_the_user() {
         let folder = |workspace: Option<&str>, set: &[(&str, &str)]| {
-            cache_folder(workspace.map(PathBuf::from), |name| {
+            cache_folder(workspace.map(PathBuf::from), Builder::CACHE, |name| {
                 set.iter().find(|(n, _)| *n == name).map(|(_, value)| value.into())
             })
         };

@@ -1,0 +1,175 @@
+//! `wheatstone synth`.
+
+use super::*;
+use crate::synth::record::{self, published, Entry, Record};
+use crate::synth::{Figure, Synthesiser, Tech};
+use rayon::prelude::*;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::picture::write_file;
+
+#[derive(Debug, Args)]
+pub(super) struct SynthArgs {
+    /// Units and systems (see `wheatstone list`); none means all
+    #[arg(value_name = "TARGET", value_parser = parse_target)]
+    targets: Vec<Target>,
+    /// What to synthesise for, several with commas
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "gates")]
+    tech: Vec<TechChoice>,
+    /// Named set of build parameters [default: each of the three]
+    #[arg(long, value_name = "default|paper|full")]
+    config: Option<String>,
+    /// Change one parameter (see `wheatstone list`); may be repeated
+    #[arg(long = "param", value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// Write a JSON report
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Compare with the committed record: exit status 1 if an area has grown by more than 2 % or a
+    /// clock fallen by more than 10 %
+    #[arg(long, conflicts_with_all = ["record", "parameters"])]
+    check: bool,
+    /// Write what was measured into the record; `wheatstone generate` then renews the tables
+    #[arg(long, conflicts_with = "parameters")]
+    record: bool,
+    /// Folder of the Verilog [default: rtl of this workspace]
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TechChoice {
+    /// NAND2-equivalent gates in two libraries
+    Gates,
+    /// Lattice iCE40 HX8K
+    Ice40,
+    /// Lattice ECP5-45, speed grade 6
+    Ecp5,
+}
+
+pub(super) fn run(args: &SynthArgs) -> Result<u8, Failure> {
+    let tasks = tasks(args)?;
+    let rtl = rtl_folder(&args.rtl)?;
+    let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
+    let synthesiser = Synthesiser { rtl, cache };
+    let spinner = Spinner::new();
+    let entries: Result<Vec<Entry>, Failure> = tasks
+        .par_iter()
+        .map(|task| {
+            let Task { target, label, config, tech } = task;
+            let figures = synthesiser.measure(*target, config, *tech)?;
+            spinner.tell(&format!("{} {label}", target.name()), tech.name());
+            let (target, config) = (target.name().to_owned(), label.clone());
+            Ok(Entry { target, config, tech: *tech, figures })
+        })
+        .collect();
+    drop(spinner);
+    let entries = entries?;
+    for tech in Tech::ALL {
+        print_table(&entries, tech);
+    }
+    if let Some(file) = &args.json {
+        let content = serde_json::json!({
+            "command": std::env::args().collect::<Vec<_>>().join(" "),
+            "measured": entries,
+        });
+        write_file(file, format!("{content:#}\n").as_bytes())?;
+    }
+    match (args.record, args.check) {
+        (true, _) => write_record(&entries).map(|()| OK),
+        (_, true) => check(&entries),
+        _ => Ok(OK),
+    }
+}
+
+/// One target, built in one way for one technology.
+struct Task {
+    target: Target,
+    label: String,
+    config: Config,
+    tech: Tech,
+}
+
+fn tasks(args: &SynthArgs) -> Result<Vec<Task>, Failure> {
+    let targets = match &args.targets[..] {
+        [] => Target::ALL.to_vec(),
+        some => some.to_vec(),
+    };
+    let names = match &args.config {
+        Some(name) => vec![name.as_str()],
+        None => Config::NAMES.to_vec(),
+    };
+    let mut tasks = Vec::new();
+    for tech in &args.tech {
+        let tech = match tech {
+            TechChoice::Gates => Tech::Gates,
+            TechChoice::Ice40 => Tech::Ice40,
+            TechChoice::Ecp5 => Tech::Ecp5,
+        };
+        for name in &names {
+            let config = Settings::new(name, &args.parameters)?.config;
+            let changed = args.parameters.iter().map(|text| format!(" {text}"));
+            let label = format!("{name}{}", changed.collect::<String>());
+            let task = |&target| Task { target, label: label.clone(), config, tech };
+            tasks.extend(targets.iter().map(task));
+        }
+    }
+    // The largest first, so that none is left over at the end.
+    tasks.sort_by_key(|task| !task.target.is_system());
+    Ok(tasks)
+}
+
+fn print_table(entries: &[Entry], tech: Tech) {
+    let entries: Vec<&Entry> = entries.iter().filter(|entry| entry.tech == tech).collect();
+    if entries.is_empty() {
+        return;
+    }
+    let mut table = comfy_table::Table::new();
+    table.load_preset(comfy_table::presets::NOTHING);
+    let mut heading = vec![tech.name(), "configuration"];
+    heading.extend(tech.figures().iter().map(|figure| figure.heading()));
+    if tech == Tech::Gates {
+        heading.push("paper");
+    }
+    table.set_header(heading);
+    for entry in entries {
+        let mut cells = vec![entry.target.clone(), entry.config.clone()];
+        cells.extend(tech.figures().iter().map(|figure: &Figure| entry.shown(*figure)));
+        let gates = Target::named(&entry.target).and_then(published);
+        if let (Tech::Gates, Some(gates)) = (tech, gates) {
+            cells.push(record::thousands(gates.into()));
+        }
+        table.add_row(cells);
+    }
+    for column in table.column_iter_mut().skip(2) {
+        column.set_cell_alignment(comfy_table::CellAlignment::Right);
+    }
+    say!("{table}\n");
+}
+
+fn root() -> Result<PathBuf, Failure> {
+    workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
+}
+
+fn write_record(entries: &[Entry]) -> Result<(), Failure> {
+    let root = root()?;
+    // The first one has nothing before it.
+    let mut record = match root.join(record::FILE).exists() {
+        true => Record::read(&root)?,
+        false => Record::default(),
+    };
+    record.update(entries);
+    record.write(&root)?;
+    say!("{}: written; now run: wheatstone generate", record::FILE);
+    Ok(())
+}
+
+fn check(entries: &[Entry]) -> Result<u8, Failure> {
+    let faults = Record::read(&root()?)?.faults(entries);
+    if faults.is_empty() {
+        say!("as recorded in {}", record::FILE);
+        return Ok(OK);
+    }
+    faults.iter().for_each(|fault| say!("{fault}"));
+    say!("if this is meant, update the record with --record in place of --check");
+    Ok(MISMATCH)
+}

@@ -1,0 +1,254 @@
+//! The committed record of area and timing: written, compared with what is measured, and made into the
+//! tables of the documentation.
+
+use super::{Figure, Figures, Tech};
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::targets::Target;
+
+/// Where it is in the workspace.
+pub const FILE: &str = "synth/record.json";
+
+/// How much an area may grow: 2 %.
+const GROWTH: f64 = 1.02;
+/// How far a clock may fall: by 10 %, about what placements of the same netlist differ by.
+const SLOWING: f64 = 0.90;
+
+/// What a target costs in a configuration.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// The target's name.
+    pub target: String,
+    /// Name of the configuration, with the parameters that were changed.
+    pub config: String,
+    /// What it was synthesised for.
+    pub tech: Tech,
+    /// What was measured.
+    pub figures: Figures,
+}
+
+impl Entry {
+    fn is_same(&self, other: &Entry) -> bool {
+        (&self.target, &self.config, self.tech) == (&other.target, &other.config, other.tech)
+    }
+
+    /// A figure as a table shows it.
+    pub fn shown(&self, figure: Figure) -> String {
+        match self.figures.get(&figure) {
+            Some(value) if figure == Figure::Fmax => format!("{value:.0}"),
+            Some(value) => thousands(*value),
+            None if figure == Figure::Fmax => "does not fit".into(),
+            None => "–".into(),
+        }
+    }
+}
+
+/// A whole number with commas.
+pub fn thousands(value: f64) -> String {
+    let digits = format!("{value:.0}");
+    let mut text = String::new();
+    for (n, digit) in digits.chars().enumerate() {
+        if n > 0 && (digits.len() - n) % 3 == 0 {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// The record could not be read.
+#[derive(Debug, Error)]
+#[error("{}: {why}; write it with: wheatstone synth --tech gates,ice40,ecp5 --record", .path.display())]
+pub struct RecordError {
+    /// The file.
+    pub path: PathBuf,
+    /// Why.
+    pub why: String,
+}
+
+/// All figures, ordered by target, configuration and technology.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Record(Vec<Entry>);
+
+impl Record {
+    /// The record of a workspace.
+    pub fn read(workspace: &Path) -> Result<Record, RecordError> {
+        let path = workspace.join(FILE);
+        let parsed = std::fs::read(&path)
+            .map_err(|error| error.to_string())
+            .and_then(|text| serde_json::from_slice(&text).map_err(|error| error.to_string()));
+        parsed.map_err(|why| RecordError { path, why })
+    }
+
+    /// Writes it, an entry a line, so that a change shows as such.
+    pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
+        let lines = self.0.iter().map(|entry| serde_json::to_string(entry).unwrap_or_default());
+        let text = format!("[\n{}\n]\n", lines.collect::<Vec<_>>().join(",\n"));
+        write_file(&workspace.join(FILE), text.as_bytes())
+    }
+
+    /// Puts entries in the place of older ones.
+    pub fn update(&mut self, entries: &[Entry]) {
+        self.0.retain(|old| !entries.iter().any(|new| new.is_same(old)));
+        self.0.extend_from_slice(entries);
+        let place = |entry: &Entry| {
+            let target = Target::named(&entry.target);
+            let config = Config::NAMES.iter().position(|name| *name == entry.config);
+            (entry.tech, target.and_then(|t| Target::ALL.iter().position(|a| *a == t)), config)
+        };
+        self.0.sort_by_key(place);
+    }
+
+    /// What has become worse than the entry here, a line each; also what is not here.
+    pub fn faults(&self, entries: &[Entry]) -> Vec<String> {
+        entries.iter().flat_map(|entry| self.faults_of(entry)).collect()
+    }
+
+    fn faults_of(&self, entry: &Entry) -> Vec<String> {
+        let Entry { target, config, tech, .. } = entry;
+        let what = format!("{target} {config} {}", tech.name());
+        let Some(recorded) = self.0.iter().find(|old| old.is_same(entry)) else {
+            return vec![format!("{what}: not in {FILE}")];
+        };
+        let worse =
+            |figure: &&Figure| match (recorded.figures.get(figure), entry.figures.get(figure)) {
+                (None, _) => false,
+                (Some(_), None) => true,
+                (Some(old), Some(new)) if **figure == Figure::Fmax => *new < old * SLOWING,
+                (Some(old), Some(new)) => *new > old * GROWTH,
+            };
+        let tell = |figure: &Figure| {
+            let [old, new] = [recorded, entry].map(|e| e.shown(*figure));
+            format!("{what}: {} {new}, recorded {old}", figure.heading())
+        };
+        tech.figures().iter().filter(worse).map(tell).collect()
+    }
+
+    fn find(&self, target: Target, config: &str, tech: Tech) -> Option<&Entry> {
+        let is_it = |e: &&Entry| e.target == target.name() && e.config == config && e.tech == tech;
+        self.0.iter().find(is_it)
+    }
+
+    /// The table of a target's page: a row a configuration.
+    pub fn page_table(&self, target: Target) -> String {
+        let columns = Tech::ALL.into_iter().flat_map(|t| t.figures().iter().map(move |f| (t, *f)));
+        let columns: Vec<(Tech, Figure)> = columns.filter(|c| self.is_used(target, *c)).collect();
+        let heading = |(tech, figure): &(Tech, Figure)| match tech {
+            Tech::Gates => format!("gates, {}", figure.heading()),
+            Tech::Ice40 => format!("iCE40 {}", figure.heading()),
+            Tech::Ecp5 => format!("ECP5 {}", figure.heading()),
+        };
+        let mut text = String::from("\n");
+        row(&mut text, "configuration", columns.iter().map(heading));
+        row(&mut text, "---", columns.iter().map(|_| "---".to_owned()));
+        for config in Config::NAMES {
+            let cell = |(tech, figure): &(Tech, Figure)| {
+                let entry = self.find(target, config, *tech);
+                entry.map_or("–".into(), |entry| entry.shown(*figure))
+            };
+            row(&mut text, &format!("`{config}`"), columns.iter().map(cell));
+        }
+        if let Some(gates) = published(target) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "\nPaper, Table 1: {} gates.", thousands(gates.into()));
+        }
+        text
+    }
+
+    /// Whether a column has something to say: chips without multipliers or memories need none.
+    fn is_used(&self, target: Target, (tech, figure): (Tech, Figure)) -> bool {
+        let entries = Config::NAMES.iter().filter_map(|config| self.find(target, config, tech));
+        let optional = matches!(figure, Figure::Dsps | Figure::Memories);
+        let mut values = entries.map(|entry| entry.figures.get(&figure).copied());
+        values.any(|value| !optional || value.is_some_and(|value| value > 0.0))
+    }
+
+    /// The table of the README: gates in the paper's configuration, chips in the default one.
+    pub fn overview(&self) -> String {
+        let mut text = String::from("\n");
+        let gates = Tech::Gates.figures().iter().map(|figure| figure.heading().to_owned());
+        let chips = ["iCE40 LUT4, MHz", "ECP5 LUT4, MHz"].map(String::from);
+        let headings = ["paper's gates".to_owned()].into_iter().chain(gates).chain(chips);
+        let headings: Vec<String> = headings.collect();
+        row(&mut text, "", headings.iter().cloned());
+        row(&mut text, "---", headings.iter().map(|_| "---".to_owned()));
+        for target in Target::ALL {
+            let paper = published(target).map_or("–".into(), |gates| thousands(gates.into()));
+            let gates = Tech::Gates.figures().iter().map(|figure| {
+                let entry = self.find(target, "paper", Tech::Gates);
+                entry.map_or("–".into(), |entry| entry.shown(*figure))
+            });
+            let chips = [Tech::Ice40, Tech::Ecp5].map(|tech| {
+                self.find(target, "default", tech).map_or("–".into(), |entry| {
+                    format!("{}, {}", entry.shown(Figure::Luts), entry.shown(Figure::Fmax))
+                })
+            });
+            let page = format!("[{0}](docs/{0}.md)", target.name());
+            row(&mut text, &page, [paper].into_iter().chain(gates).chain(chips));
+        }
+        text
+    }
+}
+
+fn row(text: &mut String, first: &str, cells: impl Iterator<Item = String>) {
+    let cells: String = cells.map(|cell| format!(" {cell} |")).collect();
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "| {first} |{cells}");
+}
+
+/// Gates that the paper gives for a target: Table 1, of the hybrid its sum with three edge
+/// interpolators, of the minimal system section 5.1.
+pub fn published(target: Target) -> Option<u32> {
+    use wheatstone_studies::published::*;
+    Some(match target {
+        Target::XInterpolator => X_INTERPOLATOR,
+        Target::YInterpolator => Y_INTERPOLATOR,
+        Target::EdgeInterpolator => EDGE_INTERPOLATOR,
+        Target::Filter => FILTER,
+        Target::Coverage => COVERAGE,
+        Target::Blend => BLEND,
+        Target::Redirect => REDIRECT,
+        Target::Minimal => MINIMAL,
+        Target::Hybrid => HYBRID,
+        Target::Display | Target::Sampler => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(figures: &[(Figure, f64)]) -> Entry {
+        let figures = figures.iter().copied().collect();
+        Entry { target: "filter".into(), config: "paper".into(), tech: Tech::Ecp5, figures }
+    }
+
+    #[test]
+    fn growth_slowing_and_gaps_are_told() {
+        let mut record = Record::default();
+        let old = entry(&[(Figure::Luts, 1000.0), (Figure::Fmax, 150.0)]);
+        assert_eq!(
+            record.faults(std::slice::from_ref(&old)),
+            ["filter paper ecp5: not in synth/record.json"]
+        );
+        record.update(std::slice::from_ref(&old));
+        let faults =
+            |luts, fmax| record.faults(&[entry(&[(Figure::Luts, luts), (Figure::Fmax, fmax)])]);
+        assert!(faults(1020.0, 135.0).is_empty() && faults(500.0, 300.0).is_empty());
+        assert_eq!(faults(1021.0, 150.0), ["filter paper ecp5: LUT4 1,021, recorded 1,000"]);
+        assert_eq!(faults(1000.0, 134.9).len(), 1);
+        // What no longer fits has no clock.
+        assert_eq!(record.faults(&[entry(&[(Figure::Luts, 1000.0)])]).len(), 1);
+        record.update(&[entry(&[(Figure::Luts, 900.0), (Figure::Fmax, 150.0)])]);
+        assert_eq!((record.0.len(), record.faults(&[old]).len()), (1, 1));
+    }
+
+    #[test]
+    fn numbers_have_commas() {
+        assert_eq!([5.0, 999.0, 1000.0, 22754.0].map(thousands), ["5", "999", "1,000", "22,754"]);
+    }
+}
