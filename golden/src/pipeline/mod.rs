@@ -15,10 +15,12 @@ pub mod hybrid;
 mod lookahead;
 pub mod minimal;
 pub mod observer;
+pub mod primary;
 pub mod redirect;
 pub mod sampler;
 mod setup_check;
 mod streams;
+pub mod traversal;
 pub mod x_interpolator;
 pub mod y_interpolator;
 
