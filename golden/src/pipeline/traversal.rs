@@ -113,7 +113,8 @@ pub fn traverse(walk: &Walk, f: &Formats, mut visit: impl FnMut(&Visit)) {
     let (mut op, mut moved) = (Op::Load, false);
     for row in 0..=w.rows.raw() {
         loop {
-            let save = x <= w.left || edges.iter().any(|e| e.is_before(e.inner));
+            let before = x <= w.left || edges.iter().any(|e| e.is_before(e.inner));
+            let save = op == Op::Load || before;
             let end = x >= w.right || edges.iter().any(SpanEdge::is_beyond);
             let last = w.last && end && row == w.rows.raw();
             let [e0, e1, e2] = edges.map(|e| e.value(f));
