@@ -19,6 +19,7 @@ pub mod primary;
 pub mod redirect;
 pub mod sampler;
 mod setup_check;
+pub mod stereo;
 mod streams;
 pub mod traversal;
 pub mod x_interpolator;
