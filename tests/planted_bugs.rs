@@ -33,7 +33,7 @@ fn within(system: Target, unit: Target) -> Search {
         Target::Coverage => &["coverage"],
         Target::Blend => &["blend"],
         Target::Display => &["display"],
-        Target::Traversal | Target::Primary | Target::Stereo => &["primary"],
+        Target::Traversal | Target::Primary | Target::Mono | Target::Stereo => &["primary"],
         // Nothing watches the streams into these.
         Target::Redirect | Target::Minimal | Target::Hybrid if system == Target::Minimal => {
             &["minimal"]
@@ -511,7 +511,7 @@ fn primary_pipeline() {
             ("mask & {MB{in_view}}", "mask | {MB{in_view}}"),
             ("visited & (~is_load | planes_valid_i)", "visited & (~is_load & planes_valid_i)"),
             ("stage_ready & (~is_load", "stage_ready | (~is_load"),
-            ("stage_ready & visited & is_load", "stage_ready & visited & ~is_load"),
+            ("visit_save, visit_last, centre,", "visit_save, visit_last, ~centre,"),
         ],
     );
     primary.catches(
@@ -534,5 +534,21 @@ fn primary_pipeline() {
         "default",
         "sam_stereo.v",
         &[(".beat_save_i(beat_save)", ".beat_save_i(~beat_save)")],
+    );
+}
+
+#[test]
+fn monocular_pipeline() {
+    let mono = Search { alone: None, system: Target::Mono, names: &["mono", "slot_queue"] };
+    mono.catches(
+        "default",
+        "sam_mono.v",
+        &[
+            ("beat_mask != {MB{1'b0}}", "beat_mask == {MB{1'b0}}"),
+            (".slot_eye_i(~eye_i)", ".slot_eye_i(eye_i)"),
+            ("out_valid & out_visible", "out_valid | out_visible"),
+            ("pixel_ready_i | ~out_visible", "pixel_ready_i & ~out_visible"),
+            ("{beat_centre, beat_x, beat_y,", "{~beat_centre, beat_x, beat_y,"),
+        ],
     );
 }

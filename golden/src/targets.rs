@@ -36,6 +36,8 @@ pub enum Target {
     Traversal,
     /// Primary pipeline.
     Primary,
+    /// Monocular pipeline.
+    Mono,
     /// Minimal system.
     Minimal,
     /// Hybrid system.
@@ -46,7 +48,7 @@ pub enum Target {
 
 impl Target {
     /// All targets, units first, in the order of the pipeline.
-    pub const ALL: [Target; 14] = [
+    pub const ALL: [Target; 15] = [
         Target::XInterpolator,
         Target::YInterpolator,
         Target::EdgeInterpolator,
@@ -58,6 +60,7 @@ impl Target {
         Target::Redirect,
         Target::Traversal,
         Target::Primary,
+        Target::Mono,
         Target::Minimal,
         Target::Hybrid,
         Target::Stereo,
@@ -77,6 +80,7 @@ impl Target {
             Target::Redirect => "redirect",
             Target::Traversal => "traversal",
             Target::Primary => "primary",
+            Target::Mono => "mono",
             Target::Minimal => "minimal",
             Target::Hybrid => "hybrid",
             Target::Stereo => "stereo",
@@ -106,6 +110,7 @@ impl Target {
             Target::Redirect => "primary and secondary pixels to their eyes",
             Target::Traversal => "pixels of a polygon, scan line by scan line",
             Target::Primary => "beats of the primary pipeline from register values",
+            Target::Mono => "primary pipeline with depth test and blending, for one eye",
             Target::Minimal => "system: interpolation and sampling only",
             Target::Hybrid => "system: edges, filter, coverage, depth test and blending",
             Target::Stereo => "system: primary pipeline and hybrid, from register values to pixels",
@@ -120,7 +125,7 @@ impl Target {
     /// A job as the target can draw it: without textures, if it makes the primary's colours itself.
     pub fn job<'a>(self, job: &'a Job) -> Job<'a> {
         match self {
-            Target::Traversal | Target::Primary | Target::Stereo => job.untextured(),
+            Target::Traversal | Target::Primary | Target::Mono | Target::Stereo => job.untextured(),
             _ => job.clone(),
         }
     }
@@ -139,6 +144,7 @@ impl Target {
             Target::Redirect => "sam_redirect",
             Target::Traversal => "sam_traversal",
             Target::Primary => "sam_primary",
+            Target::Mono => "sam_mono",
             Target::Minimal => "sam_minimal",
             Target::Hybrid => "sam_hybrid",
             Target::Stereo => "sam_stereo",
@@ -209,6 +215,11 @@ impl Target {
                 interface.parameters = parameters(&["SUBPIXEL_BITS", "ANTIALIAS"]);
                 interface.statics = vec![width];
             }
+            Target::Mono => {
+                interface.parameters =
+                    parameters(&["SUBPIXEL_BITS", "ANTIALIAS", "DEPTH_EXTERNAL", "SLOTS"]);
+                interface.statics = vec![width, Eye::field("eye", "whose view is drawn", f)];
+            }
             Target::Hybrid | Target::Stereo => {
                 interface.parameters =
                     crate::config::PARAMETERS.iter().map(|p| parameter(p.verilog)).collect();
@@ -266,6 +277,13 @@ impl Target {
                 Stream::input::<Walk>("walk", f),
                 Stream::input::<Planes>("planes", f),
                 Stream::output::<PrimaryBeat>("beat", f),
+            ],
+            Target::Mono => vec![
+                Stream::input::<Walk>("walk", f),
+                Stream::input::<Planes>("planes", f),
+                Stream::output::<Request>("request", f),
+                Stream { answers: Some("request"), ..Stream::input::<Response>("response", f) },
+                Stream::output::<Pixel>("pixel", f),
             ],
             Target::Minimal => vec![
                 Stream::input::<Setup>("setup", f),

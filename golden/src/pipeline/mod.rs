@@ -14,6 +14,7 @@ mod front;
 pub mod hybrid;
 mod lookahead;
 pub mod minimal;
+pub mod mono;
 pub mod observer;
 pub mod primary;
 pub mod redirect;

@@ -1,20 +1,27 @@
-//! Cases of the primary pipeline and of its traversal.
+//! Cases of the primary pipeline, of its traversal, and of the monocular pipeline.
 
 use super::{systems, Case};
 use fastrand::Rng;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
+use wheatstone_golden::frame::Frames;
 use wheatstone_golden::interface::{Beat, Table};
+use wheatstone_golden::pipeline::mono::Mono;
 use wheatstone_golden::pipeline::primary::Primary;
 use wheatstone_golden::pipeline::traversal::{traverse, Visit};
-use wheatstone_golden::pipeline::{Planes, Walk};
-use wheatstone_golden::record::Recording;
+use wheatstone_golden::pipeline::{Output, Pixel, Planes, Request, Response, Walk};
+use wheatstone_golden::record::{Recording, Tape};
+use wheatstone_golden::setup::{Eyes, Options, Polygon};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
 
 /// The case of the records that a recording has.
 pub fn recorded(target: Target, job: &Job, name: &str, recording: &Recording) -> Case {
-    of(target, &job.config, name, job.width, &records(recording, &job.config))
+    let all = records(recording, &job.config);
+    if target == Target::Mono {
+        return drawn(job, name, Eye::Left, &all);
+    }
+    of(target, &job.config, name, job.width, &all)
 }
 
 /// The records that a recording has.
@@ -163,4 +170,71 @@ pub fn corners(target: Target, config: &Config) -> Case {
         }
     }
     of(target, config, "flat and steep edges, both ends of the columns", 6, &records)
+}
+
+/// Frame buffers that note what passes to and from them.
+struct Noted {
+    frames: Frames,
+    case: Case,
+}
+
+impl Output for Noted {
+    fn read(&mut self, request: &Request) -> Response {
+        let response = self.frames.read(request);
+        self.case.outputs[0].push(request);
+        self.case.inputs[2].push(&response);
+        response
+    }
+    fn write(&mut self, eye: Eye, pixel: &Pixel) {
+        self.frames.write(eye, pixel);
+        self.case.outputs[1].push(pixel);
+    }
+}
+
+/// What the monocular pipeline draws of records for an eye.
+fn drawn(job: &Job, name: &str, eye: Eye, records: &[(Walk, Planes)]) -> Case {
+    let mut case = Case::empty(Target::Mono, &job.config, name);
+    case.statics = vec![job.width.into(), eye as u64];
+    let before = job.frames(false);
+    let mut noted = Noted { frames: before.clone(), case };
+    let mut mono = Mono::new(&job.config, job.width, eye);
+    for (walk, planes) in records {
+        noted.case.inputs[0].push(walk);
+        noted.case.inputs[1].push(planes);
+        mono.part(walk, planes, &mut noted);
+    }
+    Case { memory: Some(Box::new([before, noted.frames])), ..noted.case }
+}
+
+/// Polygons drawn for one eye, those with more than three corners in triangles.
+fn monocular(config: &Config, size: [u32; 2], eye: Eye, name: &str, polygons: &[Polygon]) -> Case {
+    let triangles = polygons.iter().flat_map(|polygon| {
+        (1..polygon.vertices.len() - 1).map(|k| Polygon {
+            vertices: [0, k, k + 1].map(|n| polygon.vertices[n]).to_vec(),
+            eyes: Eyes::One(eye),
+            ..polygon.clone()
+        })
+    });
+    let triangles: Vec<Polygon> = triangles.collect();
+    let job = systems::job(config, Options::new(config), size, &triangles);
+    let mut tape = Tape::new(&job, false, false);
+    job.run(false, tape.sink());
+    drawn(&job, name, eye, &records(&tape.take(), config))
+}
+
+/// Random polygons for a random eye, in a window so small that they overlap.
+pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
+    let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
+    let size = [rng.u32(24..90), rng.u32(16..70)];
+    let count = (beats / 150).max(2) as u32;
+    let polygons = systems::random_polygons(rng.u64(..), f, size, count);
+    monocular(config, size, Eye::BOTH[rng.usize(..2)], "random polygons", &polygons)
+}
+
+/// Small polygons on top of each other: the next one reads what is still in the queue.
+pub fn mono_crowd(config: &Config, eye: Eye) -> Case {
+    let size = [16, 12];
+    let polygons = systems::crowd(6, Formats::new(config), size, 240);
+    let name = format!("polygons on top of each other, {} eye", eye.name());
+    monocular(config, size, eye, &name, &polygons)
 }

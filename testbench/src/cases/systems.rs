@@ -57,14 +57,14 @@ fn instance(target: Target) -> Option<Unit> {
         Target::Blend => Unit::Blend,
         Target::Display => Unit::Display,
         Target::Redirect => Unit::Redirect,
-        Target::Traversal | Target::Primary => return None,
+        Target::Traversal | Target::Primary | Target::Mono => return None,
         Target::Minimal | Target::Hybrid | Target::Stereo => return None,
     })
 }
 
 /// The case of what a unit did inside the hybrid, or in the primary pipeline before it.
 pub fn recorded_unit(target: Target, job: &Job, name: &str, recording: &Recording) -> Case {
-    if let Target::Traversal | Target::Primary = target {
+    if let Target::Traversal | Target::Primary | Target::Mono = target {
         return super::primary::recorded(target, job, name, recording);
     }
     let mut case = Case::empty(target, &job.config, name);
@@ -165,7 +165,7 @@ pub fn random_polygons(seed: u64, formats: Formats, size: [u32; 2], count: u32) 
 
 /// Small polygons one after another in the same place, for either eye first: a slot that is still in
 /// the queue holds the place that the next one reads.
-fn crowd(seed: u64, formats: Formats, size: [u32; 2], count: u32) -> Vec<Polygon> {
+pub fn crowd(seed: u64, formats: Formats, size: [u32; 2], count: u32) -> Vec<Polygon> {
     let mut triangles = Triangles::new(seed, formats, size[0], size[1]);
     let mut place = Polygon::default();
     let polygon = |id| {
@@ -242,7 +242,12 @@ fn tilt(polygon: &mut Polygon, rng: &mut Rng) {
     }
 }
 
-fn job<'a>(config: &Config, options: Options, size: [u32; 2], polygons: &'a [Polygon]) -> Job<'a> {
+pub fn job<'a>(
+    config: &Config,
+    options: Options,
+    size: [u32; 2],
+    polygons: &'a [Polygon],
+) -> Job<'a> {
     Job {
         config: *config,
         options,
