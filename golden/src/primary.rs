@@ -82,7 +82,7 @@ enum Secondary {
     /// Nothing.
     Idle(Eye),
     /// Derives the other view.
-    Derives(Registers),
+    Derives(Box<Registers>),
     /// Tests the edges that the primary pipeline does not.
     Lends(Eye),
 }
@@ -118,7 +118,7 @@ impl<'a> Primary<'a> {
             polygon,
             attributes: &attributes,
             registers: PrimaryRegisters::new(&self.planner, eye, view, spans, &attributes),
-            secondary: Secondary::Derives(Registers::derived(derived, &own)),
+            secondary: Secondary::Derives(Box::new(Registers::derived(derived, &own))),
         };
         self.counts.derived_beats += self.traverse(&traversal, &derived.rows, sink);
     }
