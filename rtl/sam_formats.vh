@@ -26,6 +26,8 @@
 `define SAM_EDGE_BITS(SUB) ((SUB) == 8 ? 34 : 26)
 // Slope: signed integer
 `define SAM_SLOPE_BITS(SUB) ((SUB) == 8 ? 22 : 16)
+// Bound: signed integer
+`define SAM_BOUND_BITS(SUB) ((SUB) == 8 ? 28 : 22)
 // LowBits: unsigned integer
 `define SAM_LOW_BITS 3
 // DepthPlane: signed, 14 fraction bits

@@ -57,7 +57,7 @@ fn values(module: &str, config: &Config) -> Values {
     }
 }
 
-/// Every module in the named configurations, and both systems with each single parameter changed.
+/// Every module in the named configurations, and the systems with each single parameter changed.
 fn builds() -> BTreeSet<(String, Values)> {
     let mut builds = BTreeSet::new();
     for config in Config::NAMES.into_iter().filter_map(Config::named) {
@@ -70,7 +70,7 @@ fn builds() -> BTreeSet<(String, Values)> {
         for value in parameter.values {
             let mut config = Config::DEFAULT;
             config.set(parameter.name, value).expect("a legal value");
-            for module in ["sam_minimal", "sam_hybrid"] {
+            for module in ["sam_minimal", "sam_hybrid", "sam_primary", "sam_stereo"] {
                 builds.insert((module.to_owned(), values(module, &config)));
             }
         }

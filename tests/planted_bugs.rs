@@ -33,6 +33,7 @@ fn within(system: Target, unit: Target) -> Search {
         Target::Coverage => &["coverage"],
         Target::Blend => &["blend"],
         Target::Display => &["display"],
+        Target::Traversal | Target::Primary | Target::Mono | Target::Stereo => &["primary"],
         // Nothing watches the streams into these.
         Target::Redirect | Target::Minimal | Target::Hybrid if system == Target::Minimal => {
             &["minimal"]
@@ -471,5 +472,83 @@ fn parts_of_the_systems() {
         "default",
         "sam_hybrid.v",
         &[("s1_load ? flat : flat_q", "s1_load ? flat_q : flat")],
+    );
+}
+
+#[test]
+fn primary_pipeline() {
+    let traversal = within(Target::Stereo, Target::Traversal);
+    traversal.catches(
+        "default",
+        "sam_traversal.v",
+        &[
+            ("$signed(x_q) >= $signed(right_q)", "$signed(x_q) > $signed(right_q)"),
+            ("$signed(x_q) <= $signed(left_q)", "$signed(x_q) < $signed(left_q)"),
+            ("$signed(least) < $signed(left_q)", "$signed(least) > $signed(left_q)"),
+            ("~creep_q & (", "creep_q & ("),
+            ("visit_save_o ? x_q : saved_q", "visit_save_o ? saved_q : x_q"),
+            ("last_q & end_of_part", "last_q & end_of_row"),
+        ],
+    );
+    traversal.catches(
+        "default",
+        "sam_span_edge.v",
+        &[
+            ("save_i ? inner_q : saved_q", "save_i ? saved_q : inner_q"),
+            ("move_i ? {E{1'b0}} : ~a", "move_i ? ~a : {E{1'b0}}"),
+            ("down_i & ~move_i", "down_i & move_i"),
+            ("rises_q & ahead[E-1]", "~rises_q & ahead[E-1]"),
+            ("a_q[S-1] & inner_q[E-1]", "a_q[S-1] | inner_q[E-1]"),
+            ("inner_q + {{(E - B)", "inner_q - {{(E - B)"),
+        ],
+    );
+    let primary = within(Target::Stereo, Target::Primary);
+    primary.catches(
+        "default",
+        "sam_primary.v",
+        &[
+            ("visit_x < {{", "visit_x > {{"),
+            ("mask & {MB{in_view}}", "mask | {MB{in_view}}"),
+            ("visited & (~is_load | planes_valid_i)", "visited & (~is_load & planes_valid_i)"),
+            ("stage_ready & (~is_load", "stage_ready | (~is_load"),
+            ("visit_save, visit_last, centre,", "visit_save, visit_last, ~centre,"),
+        ],
+    );
+    primary.catches(
+        "full",
+        "sam_primary_planes.v",
+        &[
+            (".beat_start_i(z_start_i)", ".beat_start_i(z_row_i)"),
+            (".beat_row_i(red_row_i)", ".beat_row_i(green_row_i)"),
+            (".beat_a_i(blue_a_i)", ".beat_a_i(green_a_i)"),
+            (".value_i(alpha)", ".value_i(blue)"),
+            (".value_i(red), ", ".value_i(alpha), "),
+        ],
+    );
+    let joined = Search {
+        alone: None,
+        system: Target::Stereo,
+        names: &["primary", "x_interpolator", "edge0", "edge1", "edge2", "depth", "display"],
+    };
+    joined.catches(
+        "default",
+        "sam_stereo.v",
+        &[(".beat_save_i(beat_save)", ".beat_save_i(~beat_save)")],
+    );
+}
+
+#[test]
+fn monocular_pipeline() {
+    let mono = Search { alone: None, system: Target::Mono, names: &["mono", "slot_queue"] };
+    mono.catches(
+        "default",
+        "sam_mono.v",
+        &[
+            ("beat_mask != {MB{1'b0}}", "beat_mask == {MB{1'b0}}"),
+            (".slot_eye_i(~eye_i)", ".slot_eye_i(eye_i)"),
+            ("out_valid & out_visible", "out_valid | out_visible"),
+            ("pixel_ready_i | ~out_visible", "pixel_ready_i & ~out_visible"),
+            ("{beat_centre, beat_x, beat_y,", "{~beat_centre, beat_x, beat_y,"),
+        ],
     );
 }

@@ -109,7 +109,8 @@ fn extended_spans_are_those_of_the_theorem() {
             return;
         }
         let view = View::new(&outline, f);
-        let rows = view.extended_rows(240, 0, |_| [i64::MIN / 2, i64::MAX / 2]);
+        let spans = view.extended_spans(0, [i64::MIN / 2, i64::MAX / 2]);
+        let rows: Vec<Row> = view.rows(&spans, 240).collect();
         let points = outline.points();
         for row in &rows {
             rows_seen += 1;

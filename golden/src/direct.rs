@@ -74,7 +74,11 @@ pub(crate) struct Shade<'a> {
 impl Shade<'_> {
     /// The colour at pixel (x, y), clamped where it is extrapolated.
     pub fn colour(&self, x: i64, y: i64) -> Rgba {
-        let lit = Rgba(self.attributes.colour.map(|c| channel_at(&c, x, y)));
+        self.textured(Rgba(self.attributes.colour.map(|c| channel_at(&c, x, y))), x, y)
+    }
+
+    /// The texture at pixel (x, y), where there is one, lit by a colour.
+    pub fn textured(&self, lit: Rgba, x: i64, y: i64) -> Rgba {
         let texture = self.polygon.texture.and_then(|n| self.direct.textures.get(n as usize));
         let (Some([u, v, inverse]), Some(texture)) = (&self.attributes.texture, texture) else {
             return lit;

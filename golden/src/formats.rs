@@ -24,6 +24,8 @@ pub const GUARD_BITS: u32 = 5;
 /// Pixels by which anti-aliasing may widen a span on each side before a polygon is drawn
 /// monocular.
 pub const WIDENING_LIMIT: i64 = 32;
+/// Bits of a [`Bound`] beyond those of a slope: it is at most `WIDENING_LIMIT` + 1 slopes.
+pub const BOUND_BITS: u32 = 6;
 /// Slack, in pixels, around the guard band within which a start coordinate is accepted.
 pub const START_SLACK: i64 = 64;
 
@@ -87,6 +89,15 @@ impl Formats {
     /// Subpixels in a pixel.
     pub const fn one_pixel(&self) -> i64 {
         1 << self.subpixel_bits
+    }
+
+    /// Subpixels from a pixel's centre to its outermost samples, along x or y.
+    pub const fn sample_reach(&self) -> i64 {
+        if self.mask_bits > 1 {
+            3 * self.one_pixel() / 8
+        } else {
+            0
+        }
     }
 
     /// Samples of a fully covered pixel.
@@ -199,6 +210,8 @@ quantities! {
     EdgeValue(i64), true, 0, |f| f.edge_bits;
     /// Coefficient A or B of an edge function, in subpixels.
     Slope(i32), true, 0, |f| f.slope_bits;
+    /// What an edge function is below from the end of a row's span on (primary pipeline).
+    Bound(i64), true, 0, |f| f.slope_bits + BOUND_BITS;
     /// The three highest dropped bits of an edge function, in eighths of its last place.
     LowBits(u8), false, 0, |_f| 3;
     /// Interpolated depth: 24 bits, guard bits and a 14-bit fraction; accumulators wrap.

@@ -73,6 +73,7 @@ fn widths(text: &mut String) {
     width::<Move>(text, "MOVE");
     width::<EdgeValue>(text, "EDGE");
     width::<Slope>(text, "SLOPE");
+    width::<Bound>(text, "BOUND");
     width::<LowBits>(text, "LOW");
     width::<DepthPlane>(text, "DEPTH_PLANE");
     width::<ColourPlane>(text, "COLOUR_PLANE");

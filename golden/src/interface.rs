@@ -109,7 +109,7 @@ macro_rules! quantity_bits {
 }
 
 quantity_bits! {
-    SecondaryX Scale Slant PixelX Coordinate DisplayStep Move EdgeValue Slope LowBits DepthPlane
+    SecondaryX Scale Slant PixelX Coordinate DisplayStep Move EdgeValue Slope Bound LowBits DepthPlane
     ColourPlane Depth Area Mask Count SampleData Tag
 }
 

@@ -1,9 +1,9 @@
 //! Primary pipeline: visits the pixels of a polygon and sends the beats that a secondary
 //! pipeline lives on.
 
-use crate::direct::{depth_at, Direct, Shade};
+use crate::direct::{Direct, Shade};
 use crate::formats::*;
-use crate::pipeline::{Edges, Mode, Op, PrimaryBeat, Setup};
+use crate::pipeline::{Edges, Op, Planes, PrimaryBeat, Setup, Walk};
 use crate::setup::*;
 use crate::texture::{Lookup, Texture};
 use std::collections::BTreeMap;
@@ -14,6 +14,9 @@ pub trait Sink {
     fn polygon(&mut self, id: u32);
     /// The records that the next `LOAD` beat takes.
     fn records(&mut self, setup: &Setup, edges: &Edges);
+    /// The records from which a primary pipeline in hardware makes the beats that follow, up to the
+    /// next such call.
+    fn walk(&mut self, _walk: &Walk, _planes: &Planes) {}
     /// The next beat.
     fn beat(&mut self, beat: &PrimaryBeat);
 }
@@ -66,13 +69,22 @@ pub struct Primary<'a> {
     direct: Direct<'a>,
 }
 
-/// Who tests the samples of a beat.
+/// A polygon in the view that is drawn.
 struct Traversal<'a> {
     polygon: &'a Polygon,
     attributes: &'a Attributes,
-    /// Edges that the primary tests itself.
-    edges: &'a [Edge],
-    placement: Placement,
+    registers: PrimaryRegisters,
+    secondary: Secondary,
+}
+
+/// What the secondary pipeline does meanwhile.
+enum Secondary {
+    /// Nothing.
+    Idle(Eye),
+    /// Derives the other view.
+    Derives(Box<Registers>),
+    /// Tests the edges that the primary pipeline does not.
+    Lends(Eye),
 }
 
 impl<'a> Primary<'a> {
@@ -98,129 +110,129 @@ impl<'a> Primary<'a> {
     }
 
     fn derived(&mut self, polygon: &Polygon, derived: &Derived, sink: &mut impl Sink) {
-        let f = self.planner.formats;
-        let attributes = Attributes::new(polygon, derived.primary, &f);
-        let secondary = Attributes::new(polygon, derived.primary.other(), &f);
-        let registers = Registers::derived(derived, &secondary);
+        let (f, eye) = (self.planner.formats, derived.primary);
+        let attributes = Attributes::new(polygon, eye, &f);
+        let own = Attributes::new(polygon, eye.other(), &f);
+        let (view, spans) = (derived.primary_view, derived.spans);
         let traversal = Traversal {
             polygon,
             attributes: &attributes,
-            edges: derived.primary_view.edges(),
-            placement: Placement::new(&self.planner, derived.primary),
+            registers: PrimaryRegisters::new(&self.planner, eye, view, spans, &attributes),
+            secondary: Secondary::Derives(Box::new(Registers::derived(derived, &own))),
         };
-        sink.polygon(polygon.id);
-        self.counts.derived_beats += self.traverse(&traversal, &derived.rows, &registers, sink);
+        self.counts.derived_beats += self.traverse(&traversal, &derived.rows, sink);
     }
 
     fn monocular(&mut self, polygon: &Polygon, eye: Eye, sink: &mut impl Sink) {
-        let f = self.planner.formats;
-        let outline = Outline::new(polygon, eye);
-        let view = View::new(&outline, &f);
-        let attributes = Attributes::new(polygon, eye, &f);
-        let lends = view.edges().len() > 3 && !self.planner.options.minimal;
-        let (own, lent) = view.edges().split_at(if lends { 3 } else { view.edges().len() });
-        let traversal = Traversal {
-            polygon,
-            attributes: &attributes,
-            edges: own,
-            placement: Placement::new(&self.planner, eye),
-        };
-        sink.polygon(polygon.id);
-        self.counts.monocular_beats += if lends {
-            let registers = Registers::lent(eye, lent, &f);
-            let right = i64::from(self.planner.width) - 1;
-            let rows = view.extended_rows(self.planner.height, 0, |_| [0, right]);
-            self.traverse(&traversal, &rows, &registers, sink)
+        let Planner { formats, width, height, options, .. } = self.planner;
+        let view = View::new(&Outline::new(polygon, eye), &formats);
+        let attributes = Attributes::new(polygon, eye, &formats);
+        let (spans, secondary) = if view.edges().len() > 3 && !options.minimal {
+            (view.extended_spans(0, [0, i64::from(width) - 1]), Secondary::Lends(eye))
         } else {
-            let [width, height] = [self.planner.width, self.planner.height];
-            self.cover(&traversal, view.monocular_rows(width, height), eye, sink)
+            (view.monocular_spans(width), Secondary::Idle(eye))
         };
+        let rows: Vec<Row> = view.rows(&spans, height).collect();
+        let registers = PrimaryRegisters::new(&self.planner, eye, view, spans, &attributes);
+        let traversal = Traversal { polygon, attributes: &attributes, registers, secondary };
+        self.counts.monocular_beats += self.traverse(&traversal, &rows, sink);
     }
 
-    /// Visits rows part by part, with the ops that the secondary state needs.
-    fn traverse(
+    /// Visits rows run by run.
+    fn traverse(&mut self, traversal: &Traversal, rows: &[Row], sink: &mut impl Sink) -> u64 {
+        sink.polygon(traversal.polygon.id);
+        let f = self.planner.formats;
+        let registers = &traversal.registers;
+        let edges = registers.view.edges();
+        let end = rows.last().map(|row| (row.last, row.y));
+        match &traversal.secondary {
+            Secondary::Idle(eye) => {
+                let registers = Registers::idle(*eye, &f);
+                self.run(traversal, rows, edges, &registers, end, sink)
+            }
+            Secondary::Derives(registers) => self.run(traversal, rows, edges, registers, end, sink),
+            Secondary::Lends(eye) => {
+                let runs = registers.view.runs(rows, &registers.spans);
+                let draw = |Run { rows, own }: Run| {
+                    let others = (0..edges.len()).filter(|n| !own.contains(n));
+                    let lent: Vec<Edge> = others.map(|n| edges[n]).collect();
+                    let own = own.map(|n| edges[n]);
+                    let registers = Registers::lent(*eye, &lent, &f);
+                    self.run(traversal, rows, &own, &registers, end, sink)
+                };
+                runs.map(draw).sum()
+            }
+        }
+    }
+
+    /// Visits rows part by part, with the ops that the secondary state needs. `own` are the edges that
+    /// the primary pipeline tests, `end` is the polygon's last pixel.
+    fn run(
         &mut self,
         traversal: &Traversal,
         rows: &[Row],
-        registers: &Registers,
+        own: &[Edge],
+        secondary: &Registers,
+        end: Option<(i32, i32)>,
         sink: &mut impl Sink,
     ) -> u64 {
         let formats = self.planner.formats;
         let mut beats = 0;
-        let end = rows.last().map(|r| (r.last, r.y));
-        for part in parts(rows, |movement| registers.allows(movement, &formats)) {
-            let (setup, edges) = registers.records(&part, &self.planner);
+        let allowed = |movement| secondary.allows(movement, &formats);
+        traversal.registers.parts(rows, allowed, |part| {
+            let last = part.rows.last().map(|row| (row.last, row.y)) == end;
+            // More edges than the pipeline has are tested in the model of the minimal system only.
+            if let Ok(own) = own.try_into() {
+                let (walk, planes) = traversal.registers.records(part, own, last, &formats);
+                sink.walk(&walk, &planes);
+            }
+            let (setup, edges) = secondary.records(part, &self.planner);
             sink.records(&setup, &edges);
             self.counts.records += 1;
-            let mut start = part.rows[0].first;
-            for (n, row) in part.rows.iter().enumerate() {
-                // The row start moves by the part's movement; the rest is crept, and saved anew.
-                start = if n == 0 { start } else { start + part.movement as i32 };
-                for x in start..=row.last {
-                    let op = match (x == start, n) {
-                        (true, 0) => Op::Load,
-                        (true, _) => Op::Row,
-                        _ => Op::Step,
-                    };
-                    let last = end == Some((x, row.y));
-                    let save = x <= row.first;
-                    sink.beat(&self.beat(traversal, x.into(), row.y.into(), op, save, last));
-                    beats += 1;
-                }
-                start = row.first;
-            }
-        }
+            beats += self.visit(traversal, part, own, last, sink);
+        });
         beats
     }
 
-    /// Sends the beats of a polygon that no secondary follows.
-    fn cover(
-        &mut self,
-        traversal: &Traversal,
-        rows: impl Iterator<Item = Row>,
-        eye: Eye,
-        sink: &mut impl Sink,
-    ) -> u64 {
-        let setup = Setup { mode: Mode::monocular(eye), ..Setup::default() };
-        let mut waiting: Option<PrimaryBeat> = None;
-        let mut beats = 0;
-        for row in rows {
-            for x in row.first..=row.last {
-                let op = match waiting {
-                    None => {
-                        sink.records(&setup, &Edges::default());
-                        self.counts.records += 1;
-                        Op::Load
-                    }
-                    Some(_) if x == row.first => Op::Row,
-                    Some(_) => Op::Step,
-                };
-                // Nothing is derived, but the row start is what it is.
-                let save = x == row.first;
-                let beat = self.beat(traversal, x.into(), row.y.into(), op, save, false);
-                if let Some(before) = waiting.replace(beat) {
-                    sink.beat(&before);
-                }
-                beats += 1;
-            }
-        }
-        if let Some(beat) = waiting {
-            sink.beat(&PrimaryBeat { last: true, ..beat });
-        }
-        beats
-    }
-
-    fn beat(
+    /// Visits the pixels of a part.
+    fn visit(
         &self,
         traversal: &Traversal,
-        x: i64,
-        y: i64,
-        op: Op,
-        save: bool,
+        part: &Part,
+        own: &[Edge],
         last: bool,
-    ) -> PrimaryBeat {
+        sink: &mut impl Sink,
+    ) -> u64 {
+        let end = part.rows[part.rows.len() - 1];
+        let mut start = part.rows[0].first;
+        let mut beats = 0;
+        for (n, row) in part.rows.iter().enumerate() {
+            // The row start moves by the part's movement; the rest is crept, and saved anew.
+            start = match n {
+                0 => start,
+                _ if traversal.registers.spans.creep => start + part.movement as i32,
+                _ => row.first,
+            };
+            for x in start..=row.last {
+                let op = match (x == start, n) {
+                    (true, 0) => Op::Load,
+                    (true, _) => Op::Row,
+                    _ => Op::Step,
+                };
+                let last = last && (x, row.y) == (end.last, end.y);
+                let save = x <= row.first;
+                let beat = self.beat(traversal, own, [x, row.y].map(i64::from), op);
+                sink.beat(&PrimaryBeat { save, last, ..beat });
+                beats += 1;
+            }
+            start = row.first;
+        }
+        beats
+    }
+
+    fn beat(&self, traversal: &Traversal, own: &[Edge], [x, y]: [i64; 2], op: Op) -> PrimaryBeat {
         let f = &self.planner.formats;
-        let values = traversal.edges.iter().map(|e| (e, e.value().at(x, y)));
+        let values = own.iter().map(|e| (e, e.value().at(x, y)));
         let centre = values.clone().all(|(_, value)| value >= 0);
         let inside = (0..i64::from(self.planner.width)).contains(&x);
         let mask = match (inside, f.mask_bits) {
@@ -228,22 +240,18 @@ impl<'a> Primary<'a> {
             (true, 1) => centre.into(),
             (true, _) => values.fold(0xffff, |mask, (e, value)| mask & samples(e, value, f)),
         };
-        let shade = Shade {
-            attributes: traversal.attributes,
-            polygon: traversal.polygon,
-            direct: &self.direct,
-        };
-        let [column, line] = traversal.placement.place(x, y);
+        let Traversal { polygon, attributes, registers, .. } = traversal;
+        let shade = Shade { attributes, polygon, direct: &self.direct };
+        let [column, line] = registers.placement.place(x, y);
         PrimaryBeat {
             op,
-            save,
-            last,
             centre,
             mask: Mask::new(mask, f),
             x: Coordinate::wrap(column, f),
             y: Coordinate::wrap(line, f),
-            rgba: shade.colour(x, y),
-            depth: Depth::new(depth_at(&traversal.attributes.depth, x, y).into(), f),
+            rgba: shade.textured(registers.colour(x, y, f), x, y),
+            depth: registers.depth(x, y, f),
+            ..PrimaryBeat::default()
         }
     }
 }

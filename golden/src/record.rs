@@ -4,7 +4,9 @@ use crate::formats::{Eye, Formats};
 use crate::frame::Frames;
 use crate::interface::{Beat, Table};
 use crate::pipeline::observer::{Observer, Unit};
-use crate::pipeline::{Edges, Op, Output, Pixel, PrimaryBeat, Request, Response, Setup};
+use crate::pipeline::{
+    Edges, Op, Output, Pixel, Planes, PrimaryBeat, Request, Response, Setup, Walk,
+};
 use crate::primary::Sink;
 use crate::stereo::{Job, System};
 use std::collections::BTreeMap;
@@ -12,7 +14,7 @@ use std::collections::BTreeMap;
 /// Everything that passed a system's ports, and between its units, in a part of a job.
 #[derive(Clone, Debug)]
 pub struct Recording {
-    /// Streams by name: `setup`, `edges`, `beat`, `request`, `response`, `left`, `right`.
+    /// Streams by name: `walk`, `planes`, `setup`, `edges`, `beat`, `request`, `response`, `left`, `right`.
     pub streams: BTreeMap<&'static str, Table>,
     /// Beats that the units gave.
     pub outputs: BTreeMap<Unit, Table>,
@@ -97,6 +99,10 @@ impl Sink for Recorder {
     fn records(&mut self, setup: &Setup, edges: &Edges) {
         self.records = (*setup, *edges);
     }
+    fn walk(&mut self, walk: &Walk, planes: &Planes) {
+        self.ports.push("walk", walk);
+        self.ports.push("planes", planes);
+    }
     fn beat(&mut self, beat: &PrimaryBeat) {
         self.beats += 1;
         if beat.op == Op::Load {
@@ -170,6 +176,8 @@ impl Tape {
 
 fn empty_streams(f: &Formats) -> BTreeMap<&'static str, Table> {
     BTreeMap::from([
+        ("walk", Table::of::<Walk>(f)),
+        ("planes", Table::of::<Planes>(f)),
         ("setup", Table::of::<Setup>(f)),
         ("edges", Table::of::<Edges>(f)),
         ("beat", Table::of::<PrimaryBeat>(f)),

@@ -67,6 +67,11 @@ impl<'a> Job<'a> {
 }
 
 impl Job<'_> {
+    /// The same job without textures, for hardware that has none: polygons have their lit colour.
+    pub fn untextured(&self) -> Job<'_> {
+        Job { textures: &[], ..self.clone() }
+    }
+
     /// The planner for this job and a system.
     pub fn planner(&self, minimal: bool) -> Planner {
         Planner::new(self.config, Options { minimal, ..self.options }, self.width, self.height)

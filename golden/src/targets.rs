@@ -5,9 +5,11 @@ use crate::formats::*;
 use crate::interface::{Bits, Interface, Stream};
 use crate::pipeline::observer::Unit;
 use crate::pipeline::{
-    blend, coverage, display, edge_interpolator, filter, redirect, sampler, x_interpolator,
-    y_interpolator, Edges, Pixel, PrimaryBeat, Request, Response, Setup,
+    blend, coverage, display, edge_interpolator, filter, redirect, sampler, traversal,
+    x_interpolator, y_interpolator, Edges, Pixel, Planes, PrimaryBeat, Request, Response, Setup,
+    Walk,
 };
+use crate::stereo::Job;
 
 /// A unit or a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -30,15 +32,23 @@ pub enum Target {
     Display,
     /// Pixel redirection.
     Redirect,
+    /// Traversal of the primary pipeline.
+    Traversal,
+    /// Primary pipeline.
+    Primary,
+    /// Monocular pipeline.
+    Mono,
     /// Minimal system.
     Minimal,
     /// Hybrid system.
     Hybrid,
+    /// Primary pipeline and hybrid system.
+    Stereo,
 }
 
 impl Target {
     /// All targets, units first, in the order of the pipeline.
-    pub const ALL: [Target; 11] = [
+    pub const ALL: [Target; 15] = [
         Target::XInterpolator,
         Target::YInterpolator,
         Target::EdgeInterpolator,
@@ -48,8 +58,12 @@ impl Target {
         Target::Coverage,
         Target::Blend,
         Target::Redirect,
+        Target::Traversal,
+        Target::Primary,
+        Target::Mono,
         Target::Minimal,
         Target::Hybrid,
+        Target::Stereo,
     ];
 
     /// Name on the command line and of model, test and page.
@@ -64,8 +78,12 @@ impl Target {
             Target::Blend => "blend",
             Target::Display => "display",
             Target::Redirect => "redirect",
+            Target::Traversal => "traversal",
+            Target::Primary => "primary",
+            Target::Mono => "mono",
             Target::Minimal => "minimal",
             Target::Hybrid => "hybrid",
+            Target::Stereo => "stereo",
         }
     }
 
@@ -90,14 +108,26 @@ impl Target {
             Target::Blend => "colour over background by coverage and alpha",
             Target::Display => "where a secondary pixel goes on the display",
             Target::Redirect => "primary and secondary pixels to their eyes",
+            Target::Traversal => "pixels of a polygon, scan line by scan line",
+            Target::Primary => "beats of the primary pipeline from register values",
+            Target::Mono => "primary pipeline with depth test and blending, for one eye",
             Target::Minimal => "system: interpolation and sampling only",
             Target::Hybrid => "system: edges, filter, coverage, depth test and blending",
+            Target::Stereo => "system: primary pipeline and hybrid, from register values to pixels",
         }
     }
 
     /// Whether it is a complete system.
     pub fn is_system(self) -> bool {
-        matches!(self, Target::Minimal | Target::Hybrid)
+        matches!(self, Target::Minimal | Target::Hybrid | Target::Stereo)
+    }
+
+    /// A job as the target can draw it: without textures, if it makes the primary's colours itself.
+    pub fn job<'a>(self, job: &'a Job) -> Job<'a> {
+        match self {
+            Target::Traversal | Target::Primary | Target::Mono | Target::Stereo => job.untextured(),
+            _ => job.clone(),
+        }
     }
 
     /// The Verilog module.
@@ -112,8 +142,12 @@ impl Target {
             Target::Blend => "sam_blend",
             Target::Display => "sam_display",
             Target::Redirect => "sam_redirect",
+            Target::Traversal => "sam_traversal",
+            Target::Primary => "sam_primary",
+            Target::Mono => "sam_mono",
             Target::Minimal => "sam_minimal",
             Target::Hybrid => "sam_hybrid",
+            Target::Stereo => "sam_stereo",
         }
     }
 
@@ -176,7 +210,17 @@ impl Target {
                 interface.statics = vec![width, height, single, clear];
                 interface.flags = vec![error];
             }
-            Target::Hybrid => {
+            Target::Traversal => interface.parameters = parameters(&["SUBPIXEL_BITS"]),
+            Target::Primary => {
+                interface.parameters = parameters(&["SUBPIXEL_BITS", "ANTIALIAS"]);
+                interface.statics = vec![width];
+            }
+            Target::Mono => {
+                interface.parameters =
+                    parameters(&["SUBPIXEL_BITS", "ANTIALIAS", "DEPTH_EXTERNAL", "SLOTS"]);
+                interface.statics = vec![width, Eye::field("eye", "whose view is drawn", f)];
+            }
+            Target::Hybrid | Target::Stereo => {
                 interface.parameters =
                     crate::config::PARAMETERS.iter().map(|p| parameter(p.verilog)).collect();
                 interface.statics = vec![width, height, single, clear];
@@ -225,6 +269,22 @@ impl Target {
                 Stream::output::<Pixel>("left", f),
                 Stream::output::<Pixel>("right", f),
             ],
+            Target::Traversal => vec![
+                Stream::input::<Walk>("walk", f),
+                Stream::output::<traversal::Visit>("visit", f),
+            ],
+            Target::Primary => vec![
+                Stream::input::<Walk>("walk", f),
+                Stream::input::<Planes>("planes", f),
+                Stream::output::<PrimaryBeat>("beat", f),
+            ],
+            Target::Mono => vec![
+                Stream::input::<Walk>("walk", f),
+                Stream::input::<Planes>("planes", f),
+                Stream::output::<Request>("request", f),
+                Stream { answers: Some("request"), ..Stream::input::<Response>("response", f) },
+                Stream::output::<Pixel>("pixel", f),
+            ],
             Target::Minimal => vec![
                 Stream::input::<Setup>("setup", f),
                 Stream::input::<PrimaryBeat>("beat", f),
@@ -235,6 +295,16 @@ impl Target {
                 Stream::input::<Setup>("setup", f),
                 Stream::input::<Edges>("edges", f),
                 Stream::input::<PrimaryBeat>("beat", f),
+                Stream::output::<Request>("request", f),
+                Stream { answers: Some("request"), ..Stream::input::<Response>("response", f) },
+                Stream::output::<Pixel>("left", f),
+                Stream::output::<Pixel>("right", f),
+            ],
+            Target::Stereo => vec![
+                Stream::input::<Walk>("walk", f),
+                Stream::input::<Planes>("planes", f),
+                Stream::input::<Setup>("setup", f),
+                Stream::input::<Edges>("edges", f),
                 Stream::output::<Request>("request", f),
                 Stream { answers: Some("request"), ..Stream::input::<Response>("response", f) },
                 Stream::output::<Pixel>("left", f),
@@ -252,10 +322,19 @@ pub struct Probe {
     /// Its Verilog module.
     pub module: &'static str,
     /// Path of the instance inside the system.
-    pub path: &'static str,
+    pub path: String,
     /// The stream: one that it gives or, where more than other units' streams decides what comes in,
     /// takes.
     pub stream: Stream,
+}
+
+/// Instance of the hybrid in the stereo pipeline.
+const HYBRID_IN_STEREO: &str = "u_hybrid";
+
+/// The unit of an instance in any system.
+pub fn unit_of(path: &str) -> Option<Unit> {
+    let inner = path.strip_prefix(HYBRID_IN_STEREO).and_then(|rest| rest.strip_prefix('.'));
+    Unit::ALL.into_iter().find(|unit| unit.instance() == inner.unwrap_or(path))
 }
 
 /// The probes of a system, in the order in which data passes through them.
@@ -270,6 +349,7 @@ pub fn probes(target: Target, config: &Config) -> Vec<Probe> {
         };
         let edges = "sam_edge_interpolator";
         let (module, stream) = match unit {
+            Unit::Primary => output(Target::Primary),
             Unit::XInterpolator => output(Target::XInterpolator),
             Unit::YInterpolator => output(Target::YInterpolator),
             Unit::Edge0 | Unit::Edge1 | Unit::Edge2 => output(Target::EdgeInterpolator),
@@ -286,13 +366,21 @@ pub fn probes(target: Target, config: &Config) -> Vec<Probe> {
             Unit::Blend => output(Target::Blend),
             Unit::Redirect => return None,
         };
-        Some(Probe { unit, module, path: unit.instance(), stream: stream? })
+        let path = match (target, unit) {
+            (Target::Stereo, Unit::Primary) | (Target::Minimal | Target::Hybrid, _) => {
+                String::new()
+            }
+            _ => format!("{HYBRID_IN_STEREO}."),
+        };
+        Some(Probe { unit, module, path: path + unit.instance(), stream: stream? })
     };
+    let whole = matches!(target, Target::Hybrid | Target::Stereo);
     let present = |unit: &Unit| match unit {
+        Unit::Primary => target == Target::Stereo,
         Unit::XInterpolator | Unit::YInterpolator | Unit::Display | Unit::Sampler => true,
-        Unit::Depth => target == Target::Hybrid && config.interpolated_depth,
-        Unit::Red | Unit::Green | Unit::Blue => target == Target::Hybrid && config.integrated,
-        _ => target == Target::Hybrid,
+        Unit::Depth => whole && config.interpolated_depth,
+        Unit::Red | Unit::Green | Unit::Blue => whole && config.integrated,
+        _ => whole,
     };
     let mut probes: Vec<Probe> = Unit::ALL.into_iter().filter(present).filter_map(probe).collect();
     // Slot queue and memory stand before blending.

@@ -124,7 +124,8 @@ fn cost_table() -> String {
             let Plan::Derived(plan) = free.plan(&polygon) else { continue };
             derived += 1;
             beats += plan.rows.iter().map(Row::len).sum::<u64>();
-            let rows = plan.primary_view.monocular_rows(VIEW[0], VIEW[1]);
+            let spans = plan.primary_view.monocular_spans(VIEW[0]);
+            let rows = plan.primary_view.rows(&spans, VIEW[1]);
             covered += rows.map(|row| row.len()).sum::<u64>();
         }
         let share = |n: u32| 100.0 * f64::from(n) / f64::from(drawn);

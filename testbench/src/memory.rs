@@ -50,7 +50,7 @@ impl Memory {
     pub fn new(interface: &Interface, frames: Frames, latency: Option<u64>, seed: u64) -> Memory {
         let role = |name: &str| match name {
             "request" => Role::Request,
-            "left" | "right" => Role::Pixels,
+            "left" | "right" | "pixel" => Role::Pixels,
             _ => Role::Other,
         };
         Memory {

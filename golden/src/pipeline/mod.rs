@@ -14,11 +14,15 @@ mod front;
 pub mod hybrid;
 mod lookahead;
 pub mod minimal;
+pub mod mono;
 pub mod observer;
+pub mod primary;
 pub mod redirect;
 pub mod sampler;
 mod setup_check;
+pub mod stereo;
 mod streams;
+pub mod traversal;
 pub mod x_interpolator;
 pub mod y_interpolator;
 

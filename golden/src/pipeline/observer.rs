@@ -5,6 +5,8 @@ use crate::interface::Beat;
 /// A unit inside a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Unit {
+    /// Primary pipeline, which gives the beats.
+    Primary,
     /// X interpolator.
     XInterpolator,
     /// Y interpolator.
@@ -39,7 +41,8 @@ pub enum Unit {
 
 impl Unit {
     /// All units, in the order in which data passes through them.
-    pub const ALL: [Unit; 15] = [
+    pub const ALL: [Unit; 16] = [
+        Unit::Primary,
         Unit::XInterpolator,
         Unit::YInterpolator,
         Unit::Edge0,
@@ -63,9 +66,10 @@ impl Unit {
         instance.split('.').next_back().and_then(|i| i.strip_prefix("u_")).unwrap_or(instance)
     }
 
-    /// Name of the Verilog instance inside a system, its generate block included.
+    /// Name of the Verilog instance inside its system, its generate block included.
     pub fn instance(self) -> &'static str {
         match self {
+            Unit::Primary => "u_primary",
             Unit::XInterpolator => "u_x_interpolator",
             Unit::YInterpolator => "u_y_interpolator",
             Unit::Edge0 => "u_edge0",

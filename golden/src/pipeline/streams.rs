@@ -188,6 +188,108 @@ beat! {
 }
 
 beat! {
+    /// One polygon, or a part of one, for the traversal of the primary pipeline: stream `walk`.
+    ///
+    /// From one row to the next the row start moves by `x_row` pixels, or by one more.
+    pub struct Walk {
+        /// no part of the polygon follows
+        last: bool,
+        /// the one pixel more is a beat of its own, which the secondary pipeline can follow
+        creep: bool,
+        /// scan lines after the first
+        rows: Coordinate,
+        /// first pixel of the first scan line
+        x: PixelX,
+        /// least movement of the row start from one scan line to the next
+        x_row: PixelX,
+        /// no row begins left of this column
+        left: PixelX,
+        /// no row goes on right of this column
+        right: PixelX,
+        /// display row of the first scan line
+        y: Coordinate,
+        /// display rows from one scan line to the next
+        y_step: DisplayStep,
+        /// exchange x and y on the display
+        swap: bool,
+        /// count display x from the right
+        mirror: bool,
+        /// edge 0 at the first pixel, its bound subtracted
+        e0_start: EdgeValue,
+        /// edge 0, one pixel to the right
+        e0_a: Slope,
+        /// edge 0, one pixel down (ANTIALIAS)
+        e0_b: Slope,
+        /// edge 0, from row start to one pixel right of where the next row starts
+        e0_row: EdgeValue,
+        /// edge 0, dropped bits (ANTIALIAS)
+        e0_low: LowBits,
+        /// edge 0 is below this from the end of a row's span on
+        e0_bound: Bound,
+        /// edge 1 at the first pixel, its bound subtracted
+        e1_start: EdgeValue,
+        /// edge 1, one pixel to the right
+        e1_a: Slope,
+        /// edge 1, one pixel down (ANTIALIAS)
+        e1_b: Slope,
+        /// edge 1, from row start to one pixel right of where the next row starts
+        e1_row: EdgeValue,
+        /// edge 1, dropped bits (ANTIALIAS)
+        e1_low: LowBits,
+        /// edge 1 is below this from the end of a row's span on
+        e1_bound: Bound,
+        /// edge 2 at the first pixel, its bound subtracted
+        e2_start: EdgeValue,
+        /// edge 2, one pixel to the right
+        e2_a: Slope,
+        /// edge 2, one pixel down (ANTIALIAS)
+        e2_b: Slope,
+        /// edge 2, from row start to one pixel right of where the next row starts
+        e2_row: EdgeValue,
+        /// edge 2, dropped bits (ANTIALIAS)
+        e2_low: LowBits,
+        /// edge 2 is below this from the end of a row's span on
+        e2_bound: Bound,
+    }
+}
+
+beat! {
+    /// Colour and depth of one polygon, or a part of one, for the primary pipeline: stream `planes`.
+    pub struct Planes {
+        /// depth at the first pixel, half a unit added
+        z_start: DepthPlane,
+        /// depth, one pixel to the right
+        z_a: DepthPlane,
+        /// depth, from row start to row start
+        z_row: DepthPlane,
+        /// red at the first pixel, half a unit added
+        red_start: ColourPlane,
+        /// red, one pixel to the right
+        red_a: ColourPlane,
+        /// red, from row start to row start
+        red_row: ColourPlane,
+        /// green at the first pixel, half a unit added
+        green_start: ColourPlane,
+        /// green, one pixel to the right
+        green_a: ColourPlane,
+        /// green, from row start to row start
+        green_row: ColourPlane,
+        /// blue at the first pixel, half a unit added
+        blue_start: ColourPlane,
+        /// blue, one pixel to the right
+        blue_a: ColourPlane,
+        /// blue, from row start to row start
+        blue_row: ColourPlane,
+        /// alpha at the first pixel, half a unit added
+        alpha_start: ColourPlane,
+        /// alpha, one pixel to the right
+        alpha_a: ColourPlane,
+        /// alpha, from row start to row start
+        alpha_row: ColourPlane,
+    }
+}
+
+beat! {
     /// One primary pixel: stream `beat`.
     pub struct PrimaryBeat {
         /// what the beat does to the secondary state

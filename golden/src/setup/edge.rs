@@ -128,6 +128,18 @@ impl Edge {
         self.low >> (formats.subpixel_bits - 3)
     }
 
+    /// E' is below this where a pixel is not right of floor(x - 1/2) - widening, for a left edge
+    /// (a > 0), or not left of ceil(x - 1/2) + widening, for a right one; x where the edge crosses
+    /// the row's band of samples. So a traversal that has E' needs no other knowledge of its span.
+    pub(super) fn span_bound(&self, widening: i64, formats: &Formats) -> i64 {
+        let top_left = self.a > 0 || (self.a == 0 && self.b > 0);
+        let pixel = formats.one_pixel();
+        // E + beyond <= 0 there, with E = pixel * E' + low + bias.
+        let beyond = self.b.abs() * formats.sample_reach() + self.a.abs() * widening * pixel;
+        let bias = i64::from(!top_left);
+        (-(self.low + bias + beyond)).div_euclid(pixel) + 1
+    }
+
     /// For a left edge (a > 0): floor(x - 1/2) in pixels, x where the edge crosses scan line `y`
     /// (in subpixels).
     pub(super) fn floor_left(&self, y: i64, formats: &Formats) -> i64 {

@@ -9,6 +9,7 @@ mod linear;
 mod mapping;
 mod plan;
 mod polygon;
+mod primary;
 mod record;
 mod span;
 
@@ -17,5 +18,6 @@ pub use linear::{Linear, Plane};
 pub use mapping::Map;
 pub use plan::*;
 pub use polygon::*;
+pub use primary::PrimaryRegisters;
 pub use record::{Placement, Registers};
-pub use span::{parts, Part, Row, View};
+pub use span::{parts, Part, Row, Run, Spans, View};

@@ -4,7 +4,7 @@ use super::edge::Outline;
 use super::linear::{Linear, Plane};
 use super::mapping::Map;
 use super::polygon::{Eyes, Polygon, Vertex};
-use super::span::{Row, View};
+use super::span::{Row, Spans, View};
 use crate::config::Config;
 use crate::formats::{Eye, Formats, Rgba, FRACTION_BITS, GUARD_BITS, WIDENING_LIMIT};
 use alloc::boxed::Box;
@@ -193,15 +193,15 @@ impl Attributes {
     }
 
     /// Whether a colour or depth may leave its register ([`GUARD_BITS`]) within `reach` pixels of
-    /// the polygon.
-    fn exceeds(&self, reach: i64, colour_matters: bool, depth_matters: bool) -> bool {
+    /// the polygon. Alpha is always looked at.
+    pub(super) fn exceeds(&self, reach: i64, colour_matters: bool, depth_matters: bool) -> bool {
         let steep = |linear: &Linear, integer_bits: u32| {
             let limit = 1i128 << (integer_bits + GUARD_BITS - 2 + FRACTION_BITS);
             let [a, b] = [linear.a, linear.b].map(|n| i128::from(n).abs());
             a * i128::from(reach) + b > limit
         };
-        (colour_matters && self.colour.iter().any(|c| steep(c, 8)))
-            || (depth_matters && steep(&self.depth, 24))
+        let colours = if colour_matters { &self.colour } else { &self.colour[3..] };
+        colours.iter().any(|c| steep(c, 8)) || (depth_matters && steep(&self.depth, 24))
     }
 }
 
@@ -216,6 +216,8 @@ pub struct Derived {
     pub primary_view: View,
     /// The polygon as the secondary eye sees it.
     pub secondary_view: View,
+    /// Which pixels of the primary are visited.
+    pub spans: Spans,
     /// Visited pixels of the primary.
     pub rows: Vec<Row>,
     /// Secondary colour comes from colour planes.
@@ -317,10 +319,10 @@ impl Planner {
         }
         let depth_sampled = self.options.minimal || !self.config.interpolated_depth;
         let sampled = Attributes::new(polygon, primary, &self.formats);
-        // What the secondary interpolates is extrapolated to touched pixels only.
+        // What is not sampled is extrapolated to touched pixels only, in either view.
         let touches_outside = antialias && {
             let own = Attributes::new(polygon, primary.other(), &self.formats);
-            own.exceeds(1, planes, !depth_sampled)
+            own.exceeds(1, planes, !depth_sampled) || sampled.exceeds(1, true, true)
         };
         if touches_outside || sampled.exceeds(widening + 1, !planes, depth_sampled) {
             return Err(Reason::Gradient);
@@ -331,13 +333,15 @@ impl Planner {
         let right = i64::from(self.width) - 1;
         let uncut = primary_view.is_within(self.width) && secondary_view.is_within(self.width);
         let slack = widening + 1;
-        let rows = primary_view.extended_rows(self.height, widening, |y| {
-            if uncut {
-                return [-slack, right + slack];
-            }
-            let [first, last] = map.window(y, self.width.into());
-            [first.min(0), last.max(right)]
-        });
+        let window = match primary_view.first_and_last_line(self.height) {
+            Some(lines) if !uncut => lines.iter().fold([0, right], |[left, right], &y| {
+                let [first, last] = map.window(y, self.width.into());
+                [left.min(first), right.max(last)]
+            }),
+            _ => [-slack, right + slack],
+        };
+        let spans = primary_view.extended_spans(widening, window);
+        let rows: Vec<Row> = primary_view.rows(&spans, self.height).collect();
         if self.options.cost_rule {
             let derived: u64 = rows.iter().map(Row::len).sum();
             let twice = self.monocular_cost(&primary_view) + self.monocular_cost(&secondary_view);
@@ -358,6 +362,7 @@ impl Planner {
             map,
             primary_view,
             secondary_view,
+            spans,
             rows,
             planes,
             average,
@@ -365,6 +370,6 @@ impl Planner {
     }
 
     fn monocular_cost(&self, view: &View) -> u64 {
-        view.monocular_rows(self.width, self.height).map(|r| r.len()).sum()
+        view.rows(&view.monocular_spans(self.width), self.height).map(|r| r.len()).sum()
     }
 }

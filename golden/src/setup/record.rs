@@ -41,6 +41,12 @@ impl Registers {
         }
     }
 
+    /// Registers of a polygon drawn for one eye that no secondary follows.
+    pub fn idle(eye: Eye, formats: &Formats) -> Registers {
+        let lent = Registers::lent(eye, &[], formats);
+        Registers { setup: Setup { lend: false, ..lent.setup }, ..lent }
+    }
+
     /// Registers of a polygon drawn for one eye whose edges beyond the third are tested by the
     /// secondary pipeline; missing ones contain everything.
     pub fn lent(eye: Eye, further: &[Edge], formats: &Formats) -> Registers {
@@ -59,12 +65,16 @@ impl Registers {
 
     /// The movement's row shear fits its register.
     pub fn allows(&self, movement: i64, formats: &Formats) -> bool {
-        SecondaryX::fits(self.map.row_shear(movement), formats)
+        let idle = !self.setup.lend && !self.setup.mode.is_binocular();
+        idle || SecondaryX::fits(self.map.row_shear(movement), formats)
             && SecondaryX::fits(self.map.row_rise(movement), formats)
     }
 
     /// The records of a part.
     pub fn records(&self, part: &Part, planner: &Planner) -> (Setup, Edges) {
+        if !self.setup.lend && !self.setup.mode.is_binocular() {
+            return (self.setup, Edges::default());
+        }
         let f = &planner.formats;
         let (i, j) = (i64::from(part.rows[0].first), i64::from(part.rows[0].y));
         let [x, y] = [self.map.x_at(i, j), self.map.y_at(i, j)];
@@ -161,7 +171,7 @@ impl EdgeRegisters {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placement {
     base: i64,
-    step: i64,
+    pub(super) step: i64,
     /// Exchange x and y.
     pub swap: bool,
     /// Count x from the right.

@@ -68,36 +68,34 @@ impl View {
     fn lines(&self, height: u32) -> core::ops::Range<i64> {
         let pixel = self.formats.one_pixel();
         let [[_, top], [_, bottom]] = self.bounds;
-        let reach = if self.formats.mask_bits > 1 { 7 * pixel / 8 } else { pixel / 2 };
+        let reach = pixel / 2 + self.formats.sample_reach();
         let first = (top - reach + pixel - 1).div_euclid(pixel);
         let end = (bottom - (pixel - reach) + pixel - 1).div_euclid(pixel);
         // A line that only touches the lowest corner covers nothing.
         first.max(0)..end.min(height.into())
     }
 
-    /// From floor(xl - 1/2) to ceil(xr - 1/2), with [xl, xr] the span on the centre line; with
-    /// anti-aliasing the span of the band of samples.
-    fn extended(&self, y: i64) -> [i64; 2] {
+    /// From floor(xl - 1/2) to ceil(xr - 1/2), with [xl, xr] the span between some of the edges on
+    /// the centre line; with anti-aliasing the span of the band of samples.
+    fn extended<'a>(&self, y: i64, edges: impl IntoIterator<Item = &'a Edge>) -> [i64; 2] {
         let pixel = self.formats.one_pixel();
-        let reach = if self.formats.mask_bits > 1 { 3 * pixel / 8 } else { 0 };
+        let reach = self.formats.sample_reach();
         let centre = y * pixel + pixel / 2;
-        let [[left, _], [right, _]] = self.bounds;
-        let mut first = (left - pixel / 2).div_euclid(pixel);
-        let mut last = -((pixel / 2 - right).div_euclid(pixel));
-        for edge in self.edges() {
+        let mut span = EVERYWHERE;
+        for edge in edges {
             let line = centre + if edge.b > 0 { reach } else { -reach };
             match edge.a.signum() {
-                1 => first = first.max(edge.floor_left(line, &self.formats)),
-                -1 => last = last.min(edge.ceil_right(line, &self.formats)),
+                1 => span[0] = span[0].max(edge.floor_left(line, &self.formats)),
+                -1 => span[1] = span[1].min(edge.ceil_right(line, &self.formats)),
                 _ => {}
             }
         }
-        [first, last]
+        span
     }
 
     /// Pixels whose centre is covered on row y, as first and last.
     fn covered(&self, y: i64) -> [i64; 2] {
-        let mut span = [i64::from(i32::MIN), i64::from(i32::MAX)];
+        let mut span = EVERYWHERE;
         for edge in self.edges() {
             let at_zero = edge.value().at(0, y);
             match edge.a.signum() {
@@ -110,30 +108,128 @@ impl View {
         span
     }
 
-    /// Rows of a polygon drawn for one eye: the covered pixels inside the window, with
+    /// Spans of a polygon drawn for one eye: the covered pixels inside the window, with
     /// anti-aliasing those that may be touched.
-    pub fn monocular_rows(&self, width: u32, height: u32) -> impl Iterator<Item = Row> + '_ {
-        let antialias = self.formats.mask_bits > 1;
+    pub fn monocular_spans(&self, width: u32) -> Spans {
+        let window = [0, i64::from(width) - 1];
+        if self.formats.mask_bits > 1 {
+            return Spans { creep: false, ..self.extended_spans(0, window) };
+        }
+        Spans { widening: None, limits: window, creep: false }
+    }
+
+    /// Extended spans, widened on both sides and cut to a window, for a polygon that the secondary
+    /// pipeline follows.
+    pub fn extended_spans(&self, widening: i64, window: [i64; 2]) -> Spans {
+        let pixel = self.formats.one_pixel();
+        let [[left, _], [right, _]] = self.bounds;
+        let first = (left - pixel / 2).div_euclid(pixel) - widening;
+        let last = -((pixel / 2 - right).div_euclid(pixel)) + widening;
+        let limits = [first.max(window[0]), last.min(window[1])];
+        Spans { widening: Some(widening), limits, creep: true }
+    }
+
+    /// The visited pixels of a row between some of the polygon's edges.
+    fn between<'a>(
+        &self,
+        y: i64,
+        spans: &Spans,
+        edges: impl IntoIterator<Item = &'a Edge>,
+    ) -> [i64; 2] {
+        let [first, last] = match spans.widening {
+            Some(widening) => {
+                let [first, last] = self.extended(y, edges);
+                [first - widening, last + widening]
+            }
+            None => self.covered(y),
+        };
+        [first.max(spans.limits[0]), last.min(spans.limits[1])]
+    }
+
+    /// The rows that are visited.
+    pub fn rows<'a>(&'a self, spans: &'a Spans, height: u32) -> impl Iterator<Item = Row> + 'a {
         self.lines(height).filter_map(move |y| {
-            let [first, last] = if antialias { self.extended(y) } else { self.covered(y) };
-            Row::new(y, first.max(0), last.min(i64::from(width) - 1))
+            let [first, last] = self.between(y, spans, self.edges());
+            Row::new(y, first, last)
         })
     }
 
-    /// Rows of the extended span, widened on both sides and cut to `window(y)`.
-    pub fn extended_rows(
-        &self,
-        height: u32,
-        widening: i64,
-        window: impl Fn(i64) -> [i64; 2],
-    ) -> Vec<Row> {
-        let row = |y| {
-            let [first, last] = self.extended(y);
-            let [left, right] = window(y);
-            Row::new(y, (first - widening).max(left), (last + widening).min(right))
-        };
-        self.lines(height).filter_map(row).collect()
+    /// First and last of the scan lines that may be visited; none where there are none.
+    pub fn first_and_last_line(&self, height: u32) -> Option<[i64; 2]> {
+        let lines = self.lines(height);
+        (!lines.is_empty()).then_some([lines.start, lines.end - 1])
     }
+
+    /// Cuts rows into runs in which three of the edges have all ends of the spans: those that the
+    /// primary pipeline tests. Of a triangle these are always its three.
+    pub fn runs<'a>(&'a self, rows: &'a [Row], spans: &'a Spans) -> impl Iterator<Item = Run<'a>> {
+        let mut rest = rows;
+        core::iter::from_fn(move || {
+            let first = rest.first()?;
+            let has_ends = |row: &Row, own: &[usize; 3]| {
+                let edges = own.iter().map(|&n| &self.edges[n]);
+                self.between(row.y.into(), spans, edges) == [row.first, row.last].map(i64::from)
+            };
+            if self.count == 3 {
+                return Some(Run { rows: core::mem::take(&mut rest), own: [0, 1, 2] });
+            }
+            let mut candidates: Vec<[usize; 3]> =
+                self.triples().filter(|own| has_ends(first, own)).collect();
+            let mut length = 1;
+            while let Some(row) = rest.get(length) {
+                let left: Vec<_> =
+                    candidates.iter().copied().filter(|own| has_ends(row, own)).collect();
+                if left.is_empty() {
+                    break;
+                }
+                candidates = left;
+                length += 1;
+            }
+            let (rows, after) = rest.split_at(length);
+            rest = after;
+            Some(Run { rows, own: *candidates.first()? })
+        })
+    }
+
+    /// Every choice of three edges.
+    fn triples(&self) -> impl Iterator<Item = [usize; 3]> {
+        let count = self.count;
+        let pairs = (0..count).flat_map(move |i| (i + 1..count).map(move |j| [i, j]));
+        pairs.flat_map(move |[i, j]| (j + 1..count).map(move |k| [i, j, k]))
+    }
+}
+
+/// Ends of a span that nothing bounds.
+const EVERYWHERE: [i64; 2] = [i32::MIN as i64, i32::MAX as i64];
+
+/// Which pixels of its rows a polygon visits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spans {
+    /// Pixels by which an extended span is widened on both sides; none: covered centres only.
+    pub widening: Option<i64>,
+    /// Columns that no row passes: first and last.
+    pub limits: [i64; 2],
+    /// The row start creeps to where it has to be, with beats that the secondary pipeline follows.
+    pub creep: bool,
+}
+
+impl Spans {
+    /// What an edge function E' is below on the pixels at the end of a span and beyond.
+    pub fn bound(&self, edge: &Edge, formats: &Formats) -> i64 {
+        match self.widening {
+            Some(widening) => edge.span_bound(widening, formats),
+            None => edge.a.abs(),
+        }
+    }
+}
+
+/// Rows whose ends three edges have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Run<'a> {
+    /// The rows.
+    pub rows: &'a [Row],
+    /// Numbers of the edges.
+    pub own: [usize; 3],
 }
 
 /// A run of rows on which the row start moves by `movement` or one pixel more.

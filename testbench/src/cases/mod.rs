@@ -6,11 +6,12 @@
 mod combinational;
 mod interpolators;
 mod pixels;
+mod primary;
 mod systems;
 
 use std::fmt;
 use wheatstone_golden::config::Config;
-use wheatstone_golden::formats::Formats;
+use wheatstone_golden::formats::{Eye, Formats};
 use wheatstone_golden::frame::Frames;
 use wheatstone_golden::interface::{Beat, Direction, Interface, Table};
 use wheatstone_golden::targets::{Probe, Target};
@@ -105,7 +106,11 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
         Target::Blend => combinational::blend_case(config, seed, beats),
         Target::Display => combinational::display_case(config, seed, beats),
         Target::Redirect => combinational::redirect_case(config, seed, beats),
-        Target::Minimal | Target::Hybrid => systems::random(target, config, seed, beats),
+        Target::Traversal | Target::Primary => primary::random(target, config, seed, beats),
+        Target::Mono => primary::mono_random(config, seed, beats),
+        Target::Minimal | Target::Hybrid | Target::Stereo => {
+            systems::random(target, config, seed, beats)
+        }
     }
 }
 
@@ -126,6 +131,8 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
         Target::Redirect => {
             [false, true].map(|single| combinational::redirect_corners(config, single)).to_vec()
         }
-        Target::Minimal | Target::Hybrid => systems::directed(target, config),
+        Target::Traversal | Target::Primary => vec![primary::corners(target, config)],
+        Target::Mono => Eye::BOTH.map(|eye| primary::mono_crowd(config, eye)).to_vec(),
+        Target::Minimal | Target::Hybrid | Target::Stereo => systems::directed(target, config),
     }
 }

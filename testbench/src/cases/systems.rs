@@ -7,7 +7,7 @@ use wheatstone_golden::formats::*;
 use wheatstone_golden::frame::Scissor;
 use wheatstone_golden::interface::{Direction, Table};
 use wheatstone_golden::pipeline::observer::Unit;
-use wheatstone_golden::pipeline::{Edges, Mode, Op, PrimaryBeat, Setup};
+use wheatstone_golden::pipeline::{Edges, Mode, Op, Planes, PrimaryBeat, Setup, Walk};
 use wheatstone_golden::primary::Sink;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::record::{Recording, Tape};
@@ -35,7 +35,11 @@ pub fn recorded(target: Target, job: &Job, name: &str, recording: &Recording) ->
             Direction::Input => &recording.inputs,
             Direction::Output => &recording.outputs,
         };
-        let table = tables.get(&probe.unit).cloned().unwrap_or_else(empty);
+        let table = match probe.unit {
+            Unit::Primary => recording.streams.get("beat").cloned(),
+            unit => tables.get(&unit).cloned(),
+        };
+        let table = table.unwrap_or_else(empty);
         case.probes.push((probe, table));
     }
     case
@@ -53,12 +57,16 @@ fn instance(target: Target) -> Option<Unit> {
         Target::Blend => Unit::Blend,
         Target::Display => Unit::Display,
         Target::Redirect => Unit::Redirect,
-        Target::Minimal | Target::Hybrid => return None,
+        Target::Traversal | Target::Primary | Target::Mono => return None,
+        Target::Minimal | Target::Hybrid | Target::Stereo => return None,
     })
 }
 
-/// The case of what a unit did inside the hybrid.
+/// The case of what a unit did inside the hybrid, or in the primary pipeline before it.
 pub fn recorded_unit(target: Target, job: &Job, name: &str, recording: &Recording) -> Case {
+    if let Target::Traversal | Target::Primary | Target::Mono = target {
+        return super::primary::recorded(target, job, name, recording);
+    }
     let mut case = Case::empty(target, &job.config, name);
     let Some(unit) = instance(target) else { return case };
     if let Some(table) = recording.inputs.get(&unit) {
@@ -157,7 +165,7 @@ pub fn random_polygons(seed: u64, formats: Formats, size: [u32; 2], count: u32) 
 
 /// Small polygons one after another in the same place, for either eye first: a slot that is still in
 /// the queue holds the place that the next one reads.
-fn crowd(seed: u64, formats: Formats, size: [u32; 2], count: u32) -> Vec<Polygon> {
+pub fn crowd(seed: u64, formats: Formats, size: [u32; 2], count: u32) -> Vec<Polygon> {
     let mut triangles = Triangles::new(seed, formats, size[0], size[1]);
     let mut place = Polygon::default();
     let polygon = |id| {
@@ -186,6 +194,17 @@ fn crowd(seed: u64, formats: Formats, size: [u32; 2], count: u32) -> Vec<Polygon
 
 /// Random polygons in a small window, so that they overlap: about `beats` beats.
 pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case {
+    let (nothing, tape) = random_tape(config, seed, beats, target == Target::Minimal);
+    whole(target, &nothing, "random polygons", tape)
+}
+
+/// A tape of random polygons, and a job without them.
+pub fn random_tape(
+    config: &Config,
+    seed: u64,
+    beats: usize,
+    minimal: bool,
+) -> (Job<'static>, Tape) {
     let f = Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
     let crowded = rng.u32(..4) == 0;
@@ -194,7 +213,6 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
         false => [rng.u32(24..120), rng.u32(16..90)],
     };
     let options = options(rng, config);
-    let minimal = target == Target::Minimal;
     let nothing = job(config, options, size, &[]);
     let mut tape = Tape::new(&nothing, minimal, false);
     let mut drawn = 0;
@@ -211,7 +229,7 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
             break;
         }
     }
-    whole(target, &nothing, "random polygons", tape)
+    (nothing, tape)
 }
 
 /// Shears the right eye's view up or down by at most a pixel a column, as a tilted head does; leaves
@@ -224,7 +242,12 @@ fn tilt(polygon: &mut Polygon, rng: &mut Rng) {
     }
 }
 
-fn job<'a>(config: &Config, options: Options, size: [u32; 2], polygons: &'a [Polygon]) -> Job<'a> {
+pub fn job<'a>(
+    config: &Config,
+    options: Options,
+    size: [u32; 2],
+    polygons: &'a [Polygon],
+) -> Job<'a> {
     Job {
         config: *config,
         options,
@@ -249,7 +272,9 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let options = Options { cost_rule: false, ..Options::new(config) };
     let good = job(config, options, size, &polygons);
     let mut tape = Tape::new(&good, minimal, false);
-    good.run(minimal, &mut Spoiler { sink: tape.sink(), formats: f, polygon: 0 });
+    let stereo = target == Target::Stereo;
+    let ways = if stereo { 11 } else { 12 };
+    good.run(minimal, &mut Spoiler { sink: tape.sink(), formats: f, polygon: 0, ways });
     let spoiled = whole(target, &good, "bad setups", tape);
 
     // Inside, stray beats show whatever the registers held after power-up, so nothing inside is
@@ -278,7 +303,9 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let mut tape = Tape::new(&turned, minimal, false);
     turned.run(minimal, tape.sink());
     let turned = whole(target, &turned, "one display, rotated", tape);
-    vec![spoiled, stray, crowded, turned]
+    // Inside the stereo pipeline there are no beats but the primary's own.
+    let stray = Some(stray).filter(|_| !stereo);
+    [spoiled].into_iter().chain(stray).chain([crowded, turned]).collect()
 }
 
 /// Passes polygons on, every second one with its setup spoilt, or put just inside what is allowed.
@@ -286,13 +313,15 @@ struct Spoiler<'a, S> {
     sink: &'a mut S,
     formats: Formats,
     polygon: usize,
+    /// Ways of spoiling: the last one is a beat's, the others are a record's.
+    ways: usize,
 }
 
 impl<S> Spoiler<'_, S> {
     /// How the present polygon is treated.
     fn way(&self) -> usize {
         if self.polygon.is_multiple_of(2) {
-            self.polygon / 2 % 12
+            self.polygon / 2 % self.ways
         } else {
             12
         }
@@ -303,6 +332,9 @@ impl<S: Sink> Sink for Spoiler<'_, S> {
     fn polygon(&mut self, id: u32) {
         self.polygon += 1;
         self.sink.polygon(id);
+    }
+    fn walk(&mut self, walk: &Walk, planes: &Planes) {
+        self.sink.walk(walk, planes);
     }
     fn records(&mut self, setup: &Setup, edges: &Edges) {
         let f = &self.formats;

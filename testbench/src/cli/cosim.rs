@@ -14,7 +14,7 @@ const SMALL: [u32; 2] = [320, 240];
 
 #[derive(Debug, Args)]
 pub(super) struct CosimArgs {
-    /// Units and systems (see `wheatstone list`); none means all, or with --scene both systems
+    /// Units and systems (see `wheatstone list`); none means all, or with --scene all systems
     #[arg(value_name = "TARGET", value_parser = parse_target)]
     targets: Vec<Target>,
     /// Only the case or scene of this name
@@ -135,7 +135,7 @@ fn targets(args: &CosimArgs) -> Result<Vec<Target>, Failure> {
     }
     match args.targets.iter().find(|t| has_scene && !t.is_system()) {
         Some(unit) => Err(Failure::Input(format!(
-            "--scene: {} draws no scenes, only the systems minimal and hybrid do",
+            "--scene: {} draws no scenes, only the systems minimal, hybrid and stereo do",
             unit.name()
         ))),
         None => Ok(args.targets.clone()),

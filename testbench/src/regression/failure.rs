@@ -16,6 +16,7 @@ use wheatstone_golden::interface::{Beat, Direction};
 use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::pipeline::{Mode, Op, Pixel, PrimaryBeat, Request, Setup};
 use wheatstone_golden::record::Recording;
+use wheatstone_golden::targets::unit_of;
 
 /// Cycles shown before a difference.
 const BEFORE: u64 = 100;
@@ -281,7 +282,7 @@ fn locate(
     number: u64,
     failure: &mut Failure,
 ) -> Option<Location> {
-    let unit = Unit::ALL.into_iter().find(|u| u.instance() == instance)?;
+    let unit = unit_of(instance)?;
     let table = |unit: Unit| recording.outputs.get(&unit);
     let (x, y) = (table(Unit::XInterpolator)?, table(Unit::YInterpolator)?);
     let beat = match unit {

@@ -448,10 +448,12 @@ fn draw(ground: &Ground, scene: &NamedScene) -> Result<Entry, RegressionError> {
         }
         if entry.scene.is_none() {
             let beat = ran.counts.stream("beat");
-            let clocks = beat.map_or(0, |s| s.active);
+            // Inside the stereo pipeline the beats are the drawn ones, on any clock.
+            let clocks = beat.map_or(ran.counts.clocks, |s| s.active);
+            let drawn_share = drawn.beats() as f64 / ran.counts.clocks.max(1) as f64;
             let pixels =
                 Eye::BOTH.iter().map(|&e| frames.eyes[e as usize].colour.len() as u64).sum();
-            let acceptance = beat.map_or(1.0, |s| s.throughput());
+            let acceptance = beat.map_or(drawn_share, |s| s.throughput());
             let written = frames.written;
             entry.scene = Some(SceneEntry { drawn, frames, pixels, written, clocks, acceptance });
         }

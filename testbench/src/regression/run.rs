@@ -106,7 +106,7 @@ pub fn model_probes(target: Target, config: &Config) -> Vec<Probe> {
     let units = target.is_system().then(|| probes(target, config)).into_iter().flatten();
     units
         .map(|probe| Probe {
-            instance: probe.path.into(),
+            instance: probe.path,
             module: probe.module,
             streams: vec![probe.stream],
         })
@@ -288,6 +288,7 @@ pub fn run_scene(
     mut progress: impl FnMut(usize),
 ) -> Result<SceneRan, RegressionError> {
     let minimal = target == Target::Minimal;
+    let scene = &target.job(scene);
     let mut runner = Runner::new(setting)?;
     let mut memory = runner.memory(scene.frames(minimal));
     let mut primary = Primary::new(scene.planner(minimal), scene.textures, scene.lookup);

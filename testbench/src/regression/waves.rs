@@ -91,6 +91,7 @@ fn case_of(target: Target, job: &Scene, name: &str, part: &Part) -> Case {
 
 /// The beginning of a scene, about `beats` beats, as a case of a target.
 pub fn scene_head(target: Target, job: &Scene, name: &str, beats: usize) -> Option<Case> {
+    let job = &target.job(job);
     let part = part(job, target == Target::Minimal, |_| true, beats)?;
     Some(case_of(target, job, name, &part))
 }
@@ -162,6 +163,7 @@ fn focused(
     let Some(job) = job else {
         return Some((cases::random(target, &settings.config, seed, HEAD), None));
     };
+    let job = &target.job(job);
     let minimal = target == Target::Minimal;
     let id = match focus {
         Focus::Start => return Some((scene_head(target, job, "scene", HEAD)?, None)),

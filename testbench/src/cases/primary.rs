@@ -1,0 +1,240 @@
+//! Cases of the primary pipeline, of its traversal, and of the monocular pipeline.
+
+use super::{systems, Case};
+use fastrand::Rng;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::formats::*;
+use wheatstone_golden::frame::Frames;
+use wheatstone_golden::interface::{Beat, Table};
+use wheatstone_golden::pipeline::mono::Mono;
+use wheatstone_golden::pipeline::primary::Primary;
+use wheatstone_golden::pipeline::traversal::{traverse, Visit};
+use wheatstone_golden::pipeline::{Output, Pixel, Planes, Request, Response, Walk};
+use wheatstone_golden::record::{Recording, Tape};
+use wheatstone_golden::setup::{Eyes, Options, Polygon};
+use wheatstone_golden::stereo::Job;
+use wheatstone_golden::targets::Target;
+
+/// The case of the records that a recording has.
+pub fn recorded(target: Target, job: &Job, name: &str, recording: &Recording) -> Case {
+    let all = records(recording, &job.config);
+    if target == Target::Mono {
+        return drawn(job, name, Eye::Left, &all);
+    }
+    of(target, &job.config, name, job.width, &all)
+}
+
+/// The records that a recording has.
+fn records(recording: &Recording, config: &Config) -> Vec<(Walk, Planes)> {
+    let f = Formats::new(config);
+    let [walks, planes] = ["walk", "planes"].map(|stream| &recording.streams[stream]);
+    (0..walks.len()).map(|n| (read(walks.row(n), &f), read(planes.row(n), &f))).collect()
+}
+
+/// The beat of a table's row.
+fn read<B: Beat>(row: &[u64], f: &Formats) -> B {
+    let fields = B::fields(f);
+    let numbers = fields.iter().zip(row).map(|(field, &bits)| field.number(bits) as u64);
+    B::read(&numbers.collect::<Vec<_>>())
+}
+
+/// What the models make of records.
+fn of(target: Target, config: &Config, name: &str, width: u32, records: &[(Walk, Planes)]) -> Case {
+    let f = Formats::new(config);
+    let mut case = Case::empty(target, config, name);
+    for (walk, _) in records {
+        case.inputs[0].push(walk);
+    }
+    if target == Target::Traversal {
+        for (walk, _) in records {
+            traverse(walk, &f, |visit: &Visit| case.outputs[0].push(visit));
+        }
+        return case;
+    }
+    case.statics = vec![width.into()];
+    let mut primary = Primary::new(config, width);
+    for (walk, planes) in records {
+        case.inputs[1].push(planes);
+        primary.part(walk, planes, |beat| case.outputs[0].push(beat));
+    }
+    case
+}
+
+/// Random polygons, and between them records without sense: the ends of rows may be anywhere.
+pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case {
+    let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
+    let (job, mut tape) = systems::random_tape(config, seed, beats, false);
+    let recording = tape.take();
+    let [walks, planes] = ["walk", "planes"].map(|stream| &recording.streams[stream]);
+    let mut all = Vec::new();
+    for record in records(&recording, config) {
+        all.push(record);
+        if rng.u32(..16) == 0 {
+            all.push(senseless(rng, walks, planes, &f));
+        }
+    }
+    of(target, config, "random polygons", job.width, &all)
+}
+
+/// A record whose every register is that of some record in the tables, or anything; small enough that
+/// it ends soon.
+fn senseless(rng: &mut Rng, walks: &Table, planes: &Table, f: &Formats) -> (Walk, Planes) {
+    let (walk, planes) = (mixed::<Walk>(rng, walks, f), mixed::<Planes>(rng, planes, f));
+    // A row ends at the latest where the column comes to `right`.
+    let right = walk.x.raw() + rng.i64(0..40);
+    let walk = Walk {
+        rows: Coordinate::new(rng.i64(0..4), f),
+        x_row: PixelX::new(rng.i64(-3..4), f),
+        right: PixelX::wrap(right, f),
+        ..walk
+    };
+    (walk, planes)
+}
+
+fn mixed<B: Beat>(rng: &mut Rng, table: &Table, f: &Formats) -> B {
+    let mut field = |n: usize| match rng.u32(..8) {
+        0 => rng.u64(..),
+        _ => table.row(rng.usize(..table.len()))[n],
+    };
+    let row: Vec<u64> = (0..table.width()).map(&mut field).collect();
+    read(&row, f)
+}
+
+/// Corners of the number range: flat and vertical edges, rows of one pixel, both ends of the columns,
+/// polygons of one row and of as many as there can be.
+pub fn corners(target: Target, config: &Config) -> Case {
+    let f = &Formats::new(config);
+    let mut records = Vec::new();
+    let (leftmost, end) = (-(1 << (PixelX::bits(f) - 1)), (1 << (PixelX::bits(f) - 1)));
+    for creep in [false, true] {
+        for (x, x_row) in [(0, 0), (leftmost + 8, -2), (end - 9, 1), (5, 2)] {
+            for a in [0, 1, -1, 300, -300] {
+                for (bound, start) in [(0, 0), (1, -1), (0, 5), (-40, 40), (a, 0)] {
+                    let edge = |a: i64| {
+                        (
+                            EdgeValue::wrap(start * a.signum().max(1), f),
+                            Slope::new(a, f),
+                            EdgeValue::wrap(a * (x_row + 1) + 7, f),
+                        )
+                    };
+                    let (e0_start, e0_a, e0_row) = edge(a);
+                    let (e1_start, e1_a, e1_row) = edge(-a * 2);
+                    let bound = Bound::new(bound, f);
+                    let value = 1 << 38 | start << 20;
+                    let colour = (1 << 23) - (1 << 20) * start;
+                    records.push((
+                        Walk {
+                            last: start == 5,
+                            creep,
+                            rows: Coordinate::new(3, f),
+                            x: PixelX::new(x, f),
+                            x_row: PixelX::new(x_row, f),
+                            left: PixelX::new((x - 1).max(leftmost), f),
+                            right: PixelX::new((x + 6).min(end - 1), f),
+                            y: Coordinate::new(6, f),
+                            y_step: DisplayStep::new([1, -1, 2][(start + 40) as usize % 3], f),
+                            swap: start == -1,
+                            mirror: start == 40,
+                            e0_start,
+                            e0_a,
+                            e0_row,
+                            e0_bound: bound,
+                            e0_b: Slope::new(9, f),
+                            e0_low: LowBits::new(5, f),
+                            e1_start,
+                            e1_a,
+                            e1_row,
+                            e1_bound: bound,
+                            e1_b: Slope::new(-70, f),
+                            e1_low: LowBits::new(2, f),
+                            ..Walk::default()
+                        },
+                        Planes {
+                            z_start: DepthPlane::wrap(value, f),
+                            z_a: DepthPlane::wrap(-value / 2, f),
+                            z_row: DepthPlane::wrap(value / 3, f),
+                            red_start: ColourPlane::wrap(colour, f),
+                            red_a: ColourPlane::wrap(-colour / 2, f),
+                            green_start: ColourPlane::wrap(-colour, f),
+                            green_a: ColourPlane::wrap(colour / 2, f),
+                            blue_row: ColourPlane::wrap(colour / 3, f),
+                            blue_a: ColourPlane::wrap(1 << 14, f),
+                            alpha_start: ColourPlane::wrap(255 << 14, f),
+                            alpha_a: ColourPlane::wrap(1 << 13, f),
+                            alpha_row: ColourPlane::wrap(-(1 << 14), f),
+                            ..Planes::default()
+                        },
+                    ));
+                }
+            }
+        }
+    }
+    of(target, config, "flat and steep edges, both ends of the columns", 6, &records)
+}
+
+/// Frame buffers that note what passes to and from them.
+struct Noted {
+    frames: Frames,
+    case: Case,
+}
+
+impl Output for Noted {
+    fn read(&mut self, request: &Request) -> Response {
+        let response = self.frames.read(request);
+        self.case.outputs[0].push(request);
+        self.case.inputs[2].push(&response);
+        response
+    }
+    fn write(&mut self, eye: Eye, pixel: &Pixel) {
+        self.frames.write(eye, pixel);
+        self.case.outputs[1].push(pixel);
+    }
+}
+
+/// What the monocular pipeline draws of records for an eye.
+fn drawn(job: &Job, name: &str, eye: Eye, records: &[(Walk, Planes)]) -> Case {
+    let mut case = Case::empty(Target::Mono, &job.config, name);
+    case.statics = vec![job.width.into(), eye as u64];
+    let before = job.frames(false);
+    let mut noted = Noted { frames: before.clone(), case };
+    let mut mono = Mono::new(&job.config, job.width, eye);
+    for (walk, planes) in records {
+        noted.case.inputs[0].push(walk);
+        noted.case.inputs[1].push(planes);
+        mono.part(walk, planes, &mut noted);
+    }
+    Case { memory: Some(Box::new([before, noted.frames])), ..noted.case }
+}
+
+/// Polygons drawn for one eye, those with more than three corners in triangles.
+fn monocular(config: &Config, size: [u32; 2], eye: Eye, name: &str, polygons: &[Polygon]) -> Case {
+    let triangles = polygons.iter().flat_map(|polygon| {
+        (1..polygon.vertices.len() - 1).map(|k| Polygon {
+            vertices: [0, k, k + 1].map(|n| polygon.vertices[n]).to_vec(),
+            eyes: Eyes::One(eye),
+            ..polygon.clone()
+        })
+    });
+    let triangles: Vec<Polygon> = triangles.collect();
+    let job = systems::job(config, Options::new(config), size, &triangles);
+    let mut tape = Tape::new(&job, false, false);
+    job.run(false, tape.sink());
+    drawn(&job, name, eye, &records(&tape.take(), config))
+}
+
+/// Random polygons for a random eye, in a window so small that they overlap.
+pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
+    let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
+    let size = [rng.u32(24..90), rng.u32(16..70)];
+    let count = (beats / 150).max(2) as u32;
+    let polygons = systems::random_polygons(rng.u64(..), f, size, count);
+    monocular(config, size, Eye::BOTH[rng.usize(..2)], "random polygons", &polygons)
+}
+
+/// Small polygons on top of each other: the next one reads what is still in the queue.
+pub fn mono_crowd(config: &Config, eye: Eye) -> Case {
+    let size = [16, 12];
+    let polygons = systems::crowd(6, Formats::new(config), size, 240);
+    let name = format!("polygons on top of each other, {} eye", eye.name());
+    monocular(config, size, eye, &name, &polygons)
+}
