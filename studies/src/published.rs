@@ -20,3 +20,5 @@ pub const MINIMAL: u32 = 5000;
 /// The sum of the table, with three edge interpolators.
 pub const HYBRID: u32 =
     X_INTERPOLATOR + Y_INTERPOLATOR + 3 * EDGE_INTERPOLATOR + FILTER + COVERAGE + BLEND + REDIRECT;
+/// An ordinary primary pipeline: "in excess of approximately" (below Table 1).
+pub const PRIMARY: u32 = 100_000;

@@ -214,7 +214,10 @@ pub fn published(target: Target) -> Option<u32> {
         Target::Redirect => REDIRECT,
         Target::Minimal => MINIMAL,
         Target::Hybrid => HYBRID,
-        Target::Display | Target::Sampler => return None,
+        Target::Primary => PRIMARY,
+        Target::Display | Target::Sampler | Target::Traversal | Target::Mono | Target::Stereo => {
+            return None
+        }
     })
 }
 
