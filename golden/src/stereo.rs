@@ -145,11 +145,7 @@ pub fn pieces(polygons: &[Polygon]) -> impl Iterator<Item = Cow<'_, Polygon>> {
         if corners <= 3 || convex() {
             return vec![Cow::Borrowed(polygon)];
         }
-        let triangle = |k: usize| {
-            let vertices = [0, k, k + 1].map(|n| polygon.vertices[n]).to_vec();
-            Cow::Owned(Polygon { vertices, ..polygon.clone() })
-        };
-        (1..corners - 1).map(triangle).collect()
+        polygon.fan().map(Cow::Owned).collect()
     })
 }
 

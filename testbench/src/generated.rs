@@ -1,6 +1,7 @@
 //! Files of the workspace that are generated, whole or between marks: the header of the Verilog, and
 //! tables in the pages of `docs/`.
 
+use crate::baseline::{self, Areas, Rows};
 use crate::cli;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::{Record, RecordError};
@@ -78,7 +79,12 @@ impl Generated {
             Generated::Header => Ok(formats_header()),
             Generated::Page(target) => {
                 let text = self.between(present, "interface", &interface_tables(target))?;
-                self.between(&text, "synthesis", &Record::read(workspace)?.page_table(target))
+                let record = Record::read(workspace)?;
+                let text = self.between(&text, "synthesis", &record.page_table(target))?;
+                match target {
+                    Target::Stereo => self.between(&text, "baseline", &baseline_tables(workspace)?),
+                    _ => Ok(text),
+                }
             }
             Generated::Readme => {
                 self.between(present, "synthesis", &Record::read(workspace)?.overview())
@@ -98,6 +104,14 @@ impl Generated {
         });
         parts.ok_or_else(|| GenerateError::Marks { path: self.path(), begin })
     }
+}
+
+fn baseline_tables(workspace: &Path) -> Result<String, RecordError> {
+    let mut areas = Vec::new();
+    for config in Config::NAMES {
+        areas.extend(Areas::recorded(workspace, config)?.map(|a| (config, a)));
+    }
+    Ok(baseline::tables(&Rows::read(workspace)?, &areas))
 }
 
 /// Random triangles of each class in the table of costs, and the views they are drawn in.

@@ -1,7 +1,7 @@
 //! The affine map from primary to secondary positions (paper, appendix).
 
 use super::linear::round_ratio;
-use crate::formats::{Formats, FILTER_LIMIT, FRACTION_BITS};
+use crate::formats::{Formats, Quantity, SecondaryX, FILTER_LIMIT, FRACTION_BITS};
 
 /// Secondary position of a primary position, exact for the snapped triangle:
 /// x_s = (scale·x + shear·y)/det + constant, and the same for y with a tilted head.
@@ -101,6 +101,12 @@ impl Map {
     /// Movement of the secondary y from row start to row start, 14 fraction bits.
     pub fn row_rise(&self, movement: i64) -> i64 {
         self.row(&self.y, movement)
+    }
+
+    /// Whether what a movement of the row start does to the secondary fits the row registers.
+    pub fn allows(&self, movement: i64, formats: &Formats) -> bool {
+        SecondaryX::fits(self.row_shear(movement), formats)
+            && SecondaryX::fits(self.row_rise(movement), formats)
     }
 
     fn row(&self, axis: &Axis, movement: i64) -> i64 {

@@ -4,7 +4,7 @@ use super::edge::Outline;
 use super::linear::{Linear, Plane};
 use super::mapping::Map;
 use super::polygon::{Eyes, Polygon, Vertex};
-use super::span::{Row, Spans, View};
+use super::span::{beats, Row, Spans, View};
 use crate::config::Config;
 use crate::formats::{Eye, Formats, Rgba, FRACTION_BITS, GUARD_BITS, WIDENING_LIMIT};
 use alloc::boxed::Box;
@@ -343,7 +343,7 @@ impl Planner {
         let spans = primary_view.extended_spans(widening, window);
         let rows: Vec<Row> = primary_view.rows(&spans, self.height).collect();
         if self.options.cost_rule {
-            let derived: u64 = rows.iter().map(Row::len).sum();
+            let derived = beats(&rows, |movement| map.allows(movement, &self.formats));
             let twice = self.monocular_cost(&primary_view) + self.monocular_cost(&secondary_view);
             if derived > twice {
                 return Err(Reason::Cost);

@@ -40,6 +40,16 @@ pub struct Polygon {
     pub guard_band: bool,
 }
 
+impl Polygon {
+    /// The triangles of a convex polygon, each with the first vertex.
+    pub fn fan(&self) -> impl Iterator<Item = Polygon> + '_ {
+        (1..self.vertices.len() - 1).map(|k| {
+            let vertices = [0, k, k + 1].map(|n| self.vertices[n]).to_vec();
+            Polygon { vertices, ..self.clone() }
+        })
+    }
+}
+
 /// A set of eyes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Eyes {

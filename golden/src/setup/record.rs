@@ -66,8 +66,7 @@ impl Registers {
     /// The movement's row shear fits its register.
     pub fn allows(&self, movement: i64, formats: &Formats) -> bool {
         let idle = !self.setup.lend && !self.setup.mode.is_binocular();
-        idle || SecondaryX::fits(self.map.row_shear(movement), formats)
-            && SecondaryX::fits(self.map.row_rise(movement), formats)
+        idle || self.map.allows(movement, formats)
     }
 
     /// The records of a part.

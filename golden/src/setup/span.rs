@@ -268,3 +268,13 @@ pub fn parts<'a>(
         Some(Part { rows, movement: range.map_or(0, |[low, _]| low) })
     })
 }
+
+/// Beats of rows that a secondary pipeline follows: their pixels and the creeping of row starts.
+pub fn beats(rows: &[Row], allowed: impl Fn(i64) -> bool) -> u64 {
+    let creeping = |part: Part| -> u64 {
+        let moved = part.rows.windows(2).map(|pair| i64::from(pair[1].first - pair[0].first));
+        moved.map(|movement| (movement - part.movement) as u64).sum()
+    };
+    let visited: u64 = rows.iter().map(Row::len).sum();
+    visited + parts(rows, allowed).map(creeping).sum::<u64>()
+}

@@ -16,6 +16,7 @@ use wheatstone_golden::frame::Frames;
 use wheatstone_golden::interface::{Beat, Direction, Interface, Table};
 use wheatstone_golden::targets::{Probe, Target};
 
+pub use primary::monocular;
 pub use systems::{output_number, random_polygons, recorded, recorded_unit};
 
 /// What a target is fed and what must come out.

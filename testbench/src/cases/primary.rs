@@ -206,20 +206,20 @@ fn drawn(job: &Job, name: &str, eye: Eye, records: &[(Walk, Planes)]) -> Case {
     Case { memory: Some(Box::new([before, noted.frames])), ..noted.case }
 }
 
-/// Polygons drawn for one eye, those with more than three corners in triangles.
-fn monocular(config: &Config, size: [u32; 2], eye: Eye, name: &str, polygons: &[Polygon]) -> Case {
-    let triangles = polygons.iter().flat_map(|polygon| {
-        (1..polygon.vertices.len() - 1).map(|k| Polygon {
-            vertices: [0, k, k + 1].map(|n| polygon.vertices[n]).to_vec(),
-            eyes: Eyes::One(eye),
-            ..polygon.clone()
-        })
-    });
+/// What one eye sees of a job's polygons, those with more than three corners in triangles.
+pub fn monocular(job: &Job, eye: Eye, name: &str) -> Case {
+    let seen = job.polygons.iter().filter(|p| p.eyes == Eyes::Both || p.eyes == Eyes::One(eye));
+    let triangles = seen.flat_map(Polygon::fan);
+    let triangles = triangles.map(|polygon| Polygon { eyes: Eyes::One(eye), ..polygon });
     let triangles: Vec<Polygon> = triangles.collect();
-    let job = systems::job(config, Options::new(config), size, &triangles);
+    let job = Job { polygons: &triangles, ..Target::Mono.job(job) };
     let mut tape = Tape::new(&job, false, false);
     job.run(false, tape.sink());
-    drawn(&job, name, eye, &records(&tape.take(), config))
+    drawn(&job, name, eye, &records(&tape.take(), &job.config))
+}
+
+fn for_one_eye(polygons: Vec<Polygon>, eye: Eye) -> Vec<Polygon> {
+    polygons.into_iter().map(|polygon| Polygon { eyes: Eyes::One(eye), ..polygon }).collect()
 }
 
 /// Random polygons for a random eye, in a window so small that they overlap.
@@ -228,7 +228,9 @@ pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
     let size = [rng.u32(24..90), rng.u32(16..70)];
     let count = (beats / 150).max(2) as u32;
     let polygons = systems::random_polygons(rng.u64(..), f, size, count);
-    monocular(config, size, Eye::BOTH[rng.usize(..2)], "random polygons", &polygons)
+    let eye = Eye::BOTH[rng.usize(..2)];
+    let polygons = for_one_eye(polygons, eye);
+    monocular(&systems::job(config, Options::new(config), size, &polygons), eye, "random polygons")
 }
 
 /// Small polygons on top of each other: the next one reads what is still in the queue.
@@ -236,5 +238,6 @@ pub fn mono_crowd(config: &Config, eye: Eye) -> Case {
     let size = [16, 12];
     let polygons = systems::crowd(6, Formats::new(config), size, 240);
     let name = format!("polygons on top of each other, {} eye", eye.name());
-    monocular(config, size, eye, &name, &polygons)
+    let polygons = for_one_eye(polygons, eye);
+    monocular(&systems::job(config, Options::new(config), size, &polygons), eye, &name)
 }

@@ -18,6 +18,7 @@ macro_rules! tell {
     }};
 }
 
+mod baseline;
 mod compare;
 mod cosim;
 mod generate;
@@ -28,6 +29,7 @@ mod synth;
 mod vectors;
 mod waves;
 
+use crate::baseline::BaselineError;
 use crate::generated::GenerateError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
@@ -98,6 +100,8 @@ enum Command {
     Reproduce(reproduce::ReproduceArgs),
     /// Measure gates, LUTs and clock of targets, and compare with the committed record
     Synth(synth::SynthArgs),
+    /// Compare clocks and area of the stereo pipeline with two passes of a monocular one
+    Baseline(baseline::BaselineArgs),
     /// List targets, configurations, parameters, scenes, projections and experiments
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
@@ -198,6 +202,8 @@ enum Failure {
     Synth(#[from] SynthError),
     #[error(transparent)]
     Record(#[from] RecordError),
+    #[error(transparent)]
+    Baseline(#[from] BaselineError),
     #[error("{0}")]
     Input(String),
 }
@@ -207,7 +213,11 @@ impl Failure {
         match self {
             Failure::Tool(_)
             | Failure::Synth(SynthError::Tool(_))
-            | Failure::Regression(RegressionError::Build(BuildError::Tool(_))) => MISSING_TOOL,
+            | Failure::Regression(RegressionError::Build(BuildError::Tool(_)))
+            | Failure::Baseline(BaselineError::Regression(RegressionError::Build(
+                BuildError::Tool(_),
+            ))) => MISSING_TOOL,
+            Failure::Baseline(BaselineError::Differs { .. }) => MISMATCH,
             _ => BAD_INPUT,
         }
     }
@@ -225,6 +235,7 @@ pub fn main() -> ExitCode {
         Command::Compare(args) => compare::run(args),
         Command::Reproduce(args) => reproduce::run(args),
         Command::Synth(args) => synth::run(args),
+        Command::Baseline(args) => baseline::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
         Command::Generate(args) => generate::run(args),

@@ -2,6 +2,7 @@
 //! tables of the documentation.
 
 use super::{Figure, Figures, Tech};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -62,12 +63,27 @@ pub fn thousands(value: f64) -> String {
 
 /// The record could not be read.
 #[derive(Debug, Error)]
-#[error("{}: {why}; write it with: wheatstone synth --tech gates,ice40,ecp5 --record", .path.display())]
+#[error("{}: {why}; write it with: {command}", .path.display())]
 pub struct RecordError {
     /// The file.
     pub path: PathBuf,
     /// Why.
     pub why: String,
+    /// The command that writes it.
+    pub command: &'static str,
+}
+
+/// Reads a committed record of a workspace, which `command` writes.
+pub fn read_record<T: DeserializeOwned>(
+    workspace: &Path,
+    file: &str,
+    command: &'static str,
+) -> Result<T, RecordError> {
+    let path = workspace.join(file);
+    let parsed = std::fs::read(&path)
+        .map_err(|error| error.to_string())
+        .and_then(|text| serde_json::from_slice(&text).map_err(|error| error.to_string()));
+    parsed.map_err(|why| RecordError { path, why, command })
 }
 
 /// All figures, ordered by target, configuration and technology.
@@ -77,11 +93,7 @@ pub struct Record(Vec<Entry>);
 impl Record {
     /// The record of a workspace.
     pub fn read(workspace: &Path) -> Result<Record, RecordError> {
-        let path = workspace.join(FILE);
-        let parsed = std::fs::read(&path)
-            .map_err(|error| error.to_string())
-            .and_then(|text| serde_json::from_slice(&text).map_err(|error| error.to_string()));
-        parsed.map_err(|why| RecordError { path, why })
+        read_record(workspace, FILE, "wheatstone synth --tech gates,ice40,ecp5 --record")
     }
 
     /// Writes it, an entry a line, so that a change shows as such.
@@ -126,6 +138,11 @@ impl Record {
             format!("{what}: {} {new}, recorded {old}", figure.heading())
         };
         tech.figures().iter().filter(worse).map(tell).collect()
+    }
+
+    /// A figure, if it is there.
+    pub fn figure(&self, target: Target, config: &str, tech: Tech, figure: Figure) -> Option<f64> {
+        self.find(target, config, tech)?.figures.get(&figure).copied()
     }
 
     fn find(&self, target: Target, config: &str, tech: Tech) -> Option<&Entry> {

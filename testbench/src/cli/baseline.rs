@@ -1,0 +1,73 @@
+//! `wheatstone baseline`.
+
+use super::*;
+use crate::baseline::{self, tables, Areas, Baseline, Row, Rows, SIZES};
+use wheatstone_golden::picture::write_file;
+
+#[derive(Debug, Args)]
+pub(super) struct BaselineArgs {
+    /// Built-in scene or file [default: triangles by size and all built-in scenes]
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: Option<String>,
+    /// Size of each view in pixels [default: 640x480]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Write the rows and areas as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the rows into the record; `wheatstone generate` then renews the tables
+    #[arg(long, conflicts_with_all = ["scene", "size"])]
+    record: bool,
+    /// Folder of the Verilog [default: rtl of this workspace]
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
+    let settings = Settings::new::<&str>("default", &[])?;
+    let builder = builder(is_terminal())?;
+    let pipelines = Baseline::new(&builder, &rtl_folder(&args.rtl)?, &settings.config)?;
+    let spinner = Spinner::new();
+    let measure = |name: &str, scene: &Scene| -> Result<Row, Failure> {
+        let geometry = scene.geometry(&Formats::new(&settings.config), &Default::default())?;
+        let row = pipelines.measure(name, &job(&settings, &geometry, settings.options))?;
+        spinner.tell(name, &format!("ratio {:.3}", row.clocks()));
+        Ok(row)
+    };
+    let mut rows = Rows::default();
+    if args.scene.is_none() {
+        for size in SIZES {
+            rows.sizes.push(measure(&format!("{size} px"), &baseline::triangles(size))?);
+        }
+    }
+    let names: Vec<&str> = match &args.scene {
+        Some(name) => vec![name],
+        None => builtin_names().collect(),
+    };
+    for name in names {
+        rows.scenes.push(measure(name, &scene::open(name, args.size, None)?)?);
+    }
+    drop(spinner);
+    let root = workspace();
+    let areas = match &root {
+        Some(root) => Areas::recorded(root, "default")?,
+        None => None,
+    };
+    let named: Vec<(&str, Areas)> = areas.iter().map(|areas| ("default", *areas)).collect();
+    say!("{}", tables(&rows, &named).trim_start());
+    if let Some(file) = &args.json {
+        let content = serde_json::json!({
+            "format": "wheatstone-baseline/1",
+            "config": "default",
+            "gates": areas,
+            "sizes": rows.sizes,
+            "scenes": rows.scenes,
+        });
+        write_file(file, format!("{content:#}\n").as_bytes())?;
+    }
+    if let (true, Some(root)) = (args.record, &root) {
+        rows.write(root)?;
+        say!("{}: written; now run: wheatstone generate", baseline::FILE);
+    }
+    Ok(OK)
+}
