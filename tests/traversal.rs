@@ -47,7 +47,7 @@ fn rows_begin_and_end_where_division_says() {
                 let view = View::new(&outline, &f);
                 let spans = match n % 3 {
                     0 => view.monocular_spans(SIZE[0]),
-                    _ => view.extended_spans(n % 3 * 7 - 7, [-20, 170]),
+                    _ => view.extended_spans(n % 3 * 7 - 7, n % 5 * 64, [-20, 170]),
                 };
                 let rows: Vec<Row> = view.rows(&spans, SIZE[1]).collect();
                 let attributes = Attributes::new(&polygon, Eye::Left, &f);

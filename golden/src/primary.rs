@@ -153,7 +153,7 @@ impl<'a> Primary<'a> {
         let Planner { formats, width, height, .. } = self.planner;
         let view = View::new(outline, &formats);
         let (spans, secondary) = match lends {
-            true => (view.extended_spans(0, [0, i64::from(width) - 1]), Secondary::Lends(eye)),
+            true => (view.lent_spans(width), Secondary::Lends(eye)),
             false => (view.monocular_spans(width), Secondary::Idle(eye)),
         };
         let rows: Vec<Row> = view.rows(&spans, height).collect();

@@ -26,6 +26,9 @@ use wheatstone_studies::published::PRIMARY;
 /// Longest sides of the triangles in the table by size, in pixels.
 pub const SIZES: [u32; 9] = [2, 4, 8, 16, 32, 64, 96, 128, 256];
 
+/// How far triangles are turned from the screen at most, in degrees, in the tables by size.
+pub const TURNED: [u32; 3] = [0, 45, 90];
+
 /// Pixels that the triangles of one size cover at least, about.
 const COVERED: f64 = 150_000.0;
 
@@ -156,9 +159,10 @@ fn clocks(ran: &Ran, target: Target, name: &str) -> Result<u64, BaselineError> {
     }
 }
 
-/// Triangles of one size in space before the default rig: turned any way, their longest side `size`
-/// pixels in the view half-way between the eyes.
-pub fn triangles(size: u32) -> Scene {
+/// Triangles of one size in space before the default rig, turned from the screen by up to so many
+/// degrees, all directions equally likely; their longest side is `size` pixels in the view half-way
+/// between the eyes.
+pub fn triangles(size: u32, turned: u32) -> Scene {
     let [width, height] = DEFAULT_SIZE;
     let rig = Rig::default();
     let mut rng = Rng::with_seed(size.into());
@@ -166,7 +170,7 @@ pub fn triangles(size: u32) -> Scene {
     let side = f64::from(size);
     let count = (COVERED / (0.2 * side * side)).clamp(60.0, 4000.0) as u32;
     for n in 0..count {
-        mesh.positions.extend(triangle(&mut rng, &rig, side));
+        mesh.positions.extend(triangle(&mut rng, &rig, side, turned));
         mesh.triangles.push([0, 1, 2].map(|k| 3 * n + k));
     }
     let colours = mesh.positions.iter().map(|_| [(); 3].map(|()| rng.u8(..)));
@@ -176,13 +180,17 @@ pub fn triangles(size: u32) -> Scene {
 }
 
 /// An equilateral triangle.
-fn triangle(rng: &mut Rng, rig: &Rig, side: f64) -> [Vec3; 3] {
+fn triangle(rng: &mut Rng, rig: &Rig, side: f64, turned: u32) -> [Vec3; 3] {
     // From a quarter of the viewing distance before the screen to half of it behind.
     let d = rig.viewing_distance;
     let depth = d * (0.75 + 0.75 * rng.f64());
     let [x, y] = DEFAULT_SIZE.map(|n| (rng.f64() - 0.5) * f64::from(n) / rig.pixels_per_unit);
     let centre = [x * depth / d, y * depth / d, depth - d];
-    let normal = direction(rng);
+    let least = f64::from(turned).to_radians().cos();
+    let normal = match turned {
+        0 => [0.0, 0.0, -1.0],
+        _ => std::iter::repeat_with(|| direction(rng)).find(|n| -n[2] >= least).unwrap_or_default(),
+    };
     let first = unit(cross(normal, direction(rng)));
     let second = cross(normal, first);
     let corner = |turn: f64| {
@@ -216,8 +224,8 @@ pub const FILE: &str = "synth/baseline.json";
 /// The committed rows, of the default configuration.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rows {
-    /// By the size of triangles.
-    pub sizes: Vec<Row>,
+    /// By the size of triangles, with how far they are turned at most.
+    pub sizes: Vec<(u32, Vec<Row>)>,
     /// Of the built-in scenes.
     pub scenes: Vec<Row>,
 }
@@ -256,20 +264,22 @@ pub fn tables(rows: &Rows, areas: &[(&str, Areas)]) -> String {
         );
     }
     let factor = areas.iter().find(|(config, _)| *config == "default").map(|(_, a)| a.to_monos());
-    for (heading, rows) in [("longest side", &rows.sizes), ("scene", &rows.scenes)] {
+    let row = |text: &mut String, row: &Row| {
+        let numbers = [row.polygons, row.derived, row.stereo, row.monocular.iter().sum()];
+        let cells: String =
+            numbers.iter().map(|n| format!(" {} |", thousands(*n as f64))).collect();
+        // Two pipelines at once take twice the area and half the time.
+        let product = factor.map_or("–".into(), |f| format!("{:.2}", 2.0 * f * row.clocks()));
+        let _ = writeln!(text, "| {} |{cells} {:.3} | {product} |", row.name, row.clocks());
+    };
+    let sizes = rows.sizes.iter().map(|(turned, rows)| (format!("turned up to {turned}°"), rows));
+    for (heading, rows) in sizes.chain([("scene".to_owned(), &rows.scenes)]) {
         let _ = write!(
             text,
             "\n| {heading} | polygons | derived | clocks, stereo | clocks, two passes | ratio | area × clocks |\n\
              | --- | --- | --- | --- | --- | --- | --- |\n",
         );
-        for row in rows {
-            let numbers = [row.polygons, row.derived, row.stereo, row.monocular.iter().sum()];
-            let cells: String =
-                numbers.iter().map(|n| format!(" {} |", thousands(*n as f64))).collect();
-            // Two pipelines at once take twice the area and half the time.
-            let product = factor.map_or("–".into(), |f| format!("{:.2}", 2.0 * f * row.clocks()));
-            let _ = writeln!(text, "| {} |{cells} {:.3} | {product} |", row.name, row.clocks());
-        }
+        rows.iter().for_each(|r| row(&mut text, r));
     }
     text
 }

@@ -2,6 +2,7 @@
 
 use super::linear::Linear;
 use super::polygon::{Polygon, MAX_VERTICES};
+use super::span::Reach;
 use crate::formats::{Eye, Formats};
 
 /// The corners of a polygon in one view, in subpixels; neighbours that fell together are merged.
@@ -128,28 +129,20 @@ impl Edge {
         self.low >> (formats.subpixel_bits - 3)
     }
 
-    /// E' is below this where a pixel is not right of floor(x - 1/2) - widening, for a left edge
-    /// (a > 0), or not left of ceil(x - 1/2) + widening, for a right one; x where the edge crosses
-    /// the row's band of samples. So a traversal that has E' needs no other knowledge of its span.
-    pub(super) fn span_bound(&self, widening: i64, formats: &Formats) -> i64 {
+    /// What E' is below up to the pixel that a row begins with, for a left edge (a > 0), and from the
+    /// pixel that it ends with, for a right one. With x where the edge crosses the row's band of
+    /// samples that is `reach.widening` pixels beyond floor(x - 1/2) or ceil(x - 1/2), or the next one
+    /// inside, if the edge is more than 1 - `reach.spared`/256 pixels from its centre; and at least all
+    /// that is covered. So a traversal that has E' needs no other knowledge of its span.
+    pub(super) fn span_bound(&self, reach: Reach, formats: &Formats) -> i64 {
+        let Reach::Extended { widening, spared } = reach else { return self.a.abs() };
         let top_left = self.a > 0 || (self.a == 0 && self.b > 0);
         let pixel = formats.one_pixel();
         // E + beyond <= 0 there, with E = pixel * E' + low + bias.
-        let beyond = self.b.abs() * formats.sample_reach() + self.a.abs() * widening * pixel;
+        let band = self.b.abs() * formats.sample_reach();
+        let beyond = 256 * band + self.a.abs() * (256 * widening - spared) * pixel;
         let bias = i64::from(!top_left);
-        (-(self.low + bias + beyond)).div_euclid(pixel) + 1
-    }
-
-    /// For a left edge (a > 0): floor(x - 1/2) in pixels, x where the edge crosses scan line `y`
-    /// (in subpixels).
-    pub(super) fn floor_left(&self, y: i64, formats: &Formats) -> i64 {
-        let pixel = formats.one_pixel();
-        (-(self.b * y + self.k) - self.a * (pixel / 2)).div_euclid(self.a * pixel)
-    }
-
-    /// For a right edge (a < 0): ceil(x - 1/2) in pixels.
-    pub(super) fn ceil_right(&self, y: i64, formats: &Formats) -> i64 {
-        let pixel = formats.one_pixel();
-        -(-(self.b * y + self.k) - self.a * (pixel / 2)).div_euclid(-self.a * pixel)
+        let bound = (-256 * (self.low + bias) - beyond).div_euclid(256 * pixel) + 1;
+        bound.min(self.a.abs())
     }
 }

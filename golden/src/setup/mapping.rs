@@ -109,6 +109,20 @@ impl Map {
             && SecondaryX::fits(self.row_rise(movement), formats)
     }
 
+    /// How much of a pixel's width, in 256ths, may lie between its centre and the edge inside it
+    /// without a secondary pixel being found on it alone, for a polygon of so many `rows` and `columns`
+    /// (docs/theory.md): 1/2 less the error of the register, in secondary pixels. With a tilted head
+    /// a secondary pixel ends with its row too: nothing.
+    pub fn spared(&self, rows: u64, columns: u64) -> i64 {
+        if self.y.scale != 0 {
+            return 0;
+        }
+        // In 2^-15 pixels: start, rows, creeping and steps, each rounded to half a place.
+        let error = i128::from(1 + 2 * rows + columns);
+        let half = 1 << FRACTION_BITS;
+        ((half - error).max(0) * self.det / (128 * self.x.scale)).min(256) as i64
+    }
+
     fn row(&self, axis: &Axis, movement: i64) -> i64 {
         let numerator = axis.shear + axis.scale * i128::from(movement);
         let row = round_ratio(numerator << FRACTION_BITS, self.det);

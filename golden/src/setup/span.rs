@@ -75,58 +75,30 @@ impl View {
         first.max(0)..end.min(height.into())
     }
 
-    /// From floor(xl - 1/2) to ceil(xr - 1/2), with [xl, xr] the span between some of the edges on
-    /// the centre line; with anti-aliasing the span of the band of samples.
-    fn extended<'a>(&self, y: i64, edges: impl IntoIterator<Item = &'a Edge>) -> [i64; 2] {
-        let pixel = self.formats.one_pixel();
-        let reach = self.formats.sample_reach();
-        let centre = y * pixel + pixel / 2;
-        let mut span = EVERYWHERE;
-        for edge in edges {
-            let line = centre + if edge.b > 0 { reach } else { -reach };
-            match edge.a.signum() {
-                1 => span[0] = span[0].max(edge.floor_left(line, &self.formats)),
-                -1 => span[1] = span[1].min(edge.ceil_right(line, &self.formats)),
-                _ => {}
-            }
-        }
-        span
-    }
-
-    /// Pixels whose centre is covered on row y, as first and last.
-    fn covered(&self, y: i64) -> [i64; 2] {
-        let mut span = EVERYWHERE;
-        for edge in self.edges() {
-            let at_zero = edge.value().at(0, y);
-            match edge.a.signum() {
-                1 => span[0] = span[0].max(-at_zero.div_euclid(edge.a)),
-                -1 => span[1] = span[1].min(at_zero.div_euclid(-edge.a)),
-                _ if at_zero < 0 => return [0, -1],
-                _ => {}
-            }
-        }
-        span
-    }
-
     /// Spans of a polygon drawn for one eye: the covered pixels inside the window, with
     /// anti-aliasing those that may be touched.
     pub fn monocular_spans(&self, width: u32) -> Spans {
         let window = [0, i64::from(width) - 1];
         if self.formats.mask_bits > 1 {
-            return Spans { creep: false, ..self.extended_spans(0, window) };
+            return Spans { creep: false, ..self.extended_spans(0, 0, window) };
         }
-        Spans { widening: None, limits: window, creep: false }
+        Spans { reach: Reach::Covered, limits: window, creep: false }
     }
 
-    /// Extended spans, widened on both sides and cut to a window, for a polygon that the secondary
-    /// pipeline follows.
-    pub fn extended_spans(&self, widening: i64, window: [i64; 2]) -> Spans {
+    /// Spans of a polygon drawn for one eye that the secondary pipeline lends edges to.
+    pub fn lent_spans(&self, width: u32) -> Spans {
+        Spans { creep: true, ..self.monocular_spans(width) }
+    }
+
+    /// Extended spans, cut to a window, for a polygon that the secondary pipeline follows; see
+    /// [`Reach::Extended`].
+    pub fn extended_spans(&self, widening: i64, spared: i64, window: [i64; 2]) -> Spans {
         let pixel = self.formats.one_pixel();
         let [[left, _], [right, _]] = self.bounds;
         let first = (left - pixel / 2).div_euclid(pixel) - widening;
         let last = -((pixel / 2 - right).div_euclid(pixel)) + widening;
         let limits = [first.max(window[0]), last.min(window[1])];
-        Spans { widening: Some(widening), limits, creep: true }
+        Spans { reach: Reach::Extended { widening, spared }, limits, creep: true }
     }
 
     /// The visited pixels of a row between some of the polygon's edges.
@@ -136,13 +108,20 @@ impl View {
         spans: &Spans,
         edges: impl IntoIterator<Item = &'a Edge>,
     ) -> [i64; 2] {
-        let [first, last] = match spans.widening {
-            Some(widening) => {
-                let [first, last] = self.extended(y, edges);
-                [first - widening, last + widening]
+        let [mut first, mut last] = [i64::from(i32::MIN), i64::from(i32::MAX)];
+        for edge in edges {
+            let (at_zero, bound) = (edge.value().at(0, y), spans.bound(edge, &self.formats));
+            match edge.a.signum() {
+                1 => first = first.max((bound - 1 - at_zero).div_euclid(edge.a)),
+                -1 => last = last.min((at_zero - bound).div_euclid(-edge.a) + 1),
+                _ if spans.reach == Reach::Covered && at_zero < 0 => return [0, -1],
+                _ => {}
             }
-            None => self.covered(y),
-        };
+        }
+        // An extended row has a pixel at least: of two neighbours either does for both.
+        if spans.reach != Reach::Covered {
+            first = first.min(last);
+        }
         [first.max(spans.limits[0]), last.min(spans.limits[1])]
     }
 
@@ -199,14 +178,27 @@ impl View {
     }
 }
 
-/// Ends of a span that nothing bounds.
-const EVERYWHERE: [i64; 2] = [i32::MIN as i64, i32::MAX as i64];
+/// How far the visited pixels of a row reach, from the span [xl, xr] between its edges on the centre
+/// line, with anti-aliasing the span of the band of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Covered centres only.
+    Covered,
+    /// From floor(xl - 1/2) to ceil(xr - 1/2), for a polygon that the secondary pipeline follows.
+    Extended {
+        /// Pixels more on both sides.
+        widening: i64,
+        /// From 0 to 256: a pixel at the end is spared if its centre is more than 1 - `spared`/256
+        /// pixels from the edge.
+        spared: i64,
+    },
+}
 
 /// Which pixels of its rows a polygon visits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spans {
-    /// Pixels by which an extended span is widened on both sides; none: covered centres only.
-    pub widening: Option<i64>,
+    /// How far rows reach.
+    pub reach: Reach,
     /// Columns that no row passes: first and last.
     pub limits: [i64; 2],
     /// The row start creeps to where it has to be, with beats that the secondary pipeline follows.
@@ -216,10 +208,7 @@ pub struct Spans {
 impl Spans {
     /// What an edge function E' is below on the pixels at the end of a span and beyond.
     pub fn bound(&self, edge: &Edge, formats: &Formats) -> i64 {
-        match self.widening {
-            Some(widening) => edge.span_bound(widening, formats),
-            None => edge.a.abs(),
-        }
+        edge.span_bound(self.reach, formats)
     }
 }
 

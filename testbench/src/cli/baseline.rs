@@ -1,7 +1,7 @@
 //! `wheatstone baseline`.
 
 use super::*;
-use crate::baseline::{self, tables, Areas, Baseline, Row, Rows, SIZES};
+use crate::baseline::{self, tables, Areas, Baseline, Row, Rows, SIZES, TURNED};
 use wheatstone_golden::picture::write_file;
 
 #[derive(Debug, Args)]
@@ -36,8 +36,9 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
     };
     let mut rows = Rows::default();
     if args.scene.is_none() {
-        for size in SIZES {
-            rows.sizes.push(measure(&format!("{size} px"), &baseline::triangles(size))?);
+        for turned in TURNED {
+            let row = |size| measure(&format!("{size} px"), &baseline::triangles(size, turned));
+            rows.sizes.push((turned, SIZES.map(row).into_iter().collect::<Result<_, _>>()?));
         }
     }
     let names: Vec<&str> = match &args.scene {
