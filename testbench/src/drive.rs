@@ -115,7 +115,7 @@ impl<'a> Run<'a> {
         let checked = u64::from(self.outputs & self.tabled) | Seen::STOPPED;
         let told = if responder.is_some() { self.outputs } else { 0 };
         let mut state = self.begin();
-        let (mut cycle, mut idle, mut after) = (start, 0, 0);
+        let (mut cycle, mut idle, mut after, mut probed) = (start, 0, 0, 0);
         let result = loop {
             let gate = self.gates[cycle as usize & (self.gates.len() - 1)];
             let mut opening = gate & state.waiting;
@@ -160,7 +160,12 @@ impl<'a> Run<'a> {
             if state.unfinished == 0 {
                 after += 1;
                 if idle >= limits.quiet || after >= limits.watchdog {
-                    break Ok(());
+                    // Inside, beats may still follow that no output shows.
+                    let now = self.probed(self.streams(model));
+                    if now == probed {
+                        break Ok(());
+                    }
+                    (idle, after, probed) = (0, 0, now);
                 }
             } else {
                 after = 0;

@@ -109,7 +109,7 @@ impl Run<'_> {
     }
 
     /// Number of the module's own streams.
-    fn streams(&self, model: &Model) -> usize {
+    pub(super) fn streams(&self, model: &Model) -> usize {
         model.library().layout().streams.len()
     }
 
@@ -178,8 +178,13 @@ impl Run<'_> {
             }
         });
         let streams = streams.collect();
-        let probed = bits(self.watched).map(|i| self.cursors[own + i].done).sum();
+        let probed = self.probed(own);
         Counts { clocks, simulated: end - start, streams, probed }
+    }
+
+    /// Beats seen at the probes so far, of a module with so many streams.
+    pub(super) fn probed(&self, streams: usize) -> u64 {
+        bits(self.watched).map(|i| self.cursors[streams + i].done).sum()
     }
 }
 
