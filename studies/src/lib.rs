@@ -16,6 +16,7 @@ pub mod report;
 pub mod reproduce;
 pub mod timing;
 pub mod village;
+pub mod volume;
 
 pub use report::{Check, Report, Row, Table, Verdict};
 

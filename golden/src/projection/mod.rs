@@ -120,6 +120,19 @@ pub struct Range {
     pub map: DistanceMap,
 }
 
+impl Range {
+    /// Where its near and its far end are perceived.
+    pub fn perceived(&self) -> [f64; 2] {
+        [self.near, self.far].map(|distance| self.map.perceived(distance))
+    }
+
+    /// Whether another range, which is farther away, begins to be perceived nearer than this one
+    /// ends: what recedes from the one to the other seems to approach.
+    pub fn runs_back_to(&self, farther: &Range) -> bool {
+        farther.perceived()[0] < self.perceived()[1] * (1.0 - 1e-9)
+    }
+}
+
 impl Projection {
     /// Its kind.
     pub fn kind(&self) -> Kind {

@@ -93,7 +93,7 @@ impl Camera {
         found.unwrap_or(&self.lenses[self.lenses.len() - 1])
     }
 
-    /// Whether all of what reaches from one z to another lies within the ranges of lenses.
+    /// Whether what reaches from one z to another, and is at least partly a lens's, is wholly so.
     pub fn covers(&self, [least, most]: [f64; 2]) -> bool {
         let mut reached = least;
         for [near, far] in self.lenses.iter().map(|lens| lens.range) {
@@ -101,7 +101,7 @@ impl Camera {
                 reached = reached.max(far);
             }
         }
-        self.lenses.iter().any(|lens| lens.reaches([least, most])) && reached >= most
+        reached >= most
     }
 
     /// Pixel position of a point for an eye, by its lens.

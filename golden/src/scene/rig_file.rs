@@ -186,6 +186,11 @@ impl RigFile {
         Some([self.width?, self.height?])
     }
 
+    /// The display from which the rig of a [`Kind::Translate`] follows, if the file has one.
+    pub fn device(&self) -> Option<Device> {
+        self.translate
+    }
+
     /// Placement of a mesh.
     pub fn placement(&self) -> Placement {
         self.placement.clone()

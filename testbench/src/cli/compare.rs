@@ -25,8 +25,8 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
         let message = "--param display, displays: views are compared each on its own display";
         return Err(Failure::Input(message.into()));
     }
-    let name = args.common.scene.as_deref().unwrap_or("room");
-    let scene = args.common.open(name, args.common.size)?;
+    let name = args.common.view.scene.as_deref().unwrap_or("room");
+    let scene = args.common.open(name, args.common.view.size)?;
     let geometry = args.common.geometry_of(&scene, &settings)?;
     if let Some(out) = &args.out {
         std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;

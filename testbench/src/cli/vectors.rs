@@ -61,10 +61,10 @@ fn case(
     seed: u64,
     beats: usize,
 ) -> Result<Case, Failure> {
-    let Some(name) = &args.common.scene else {
+    let Some(name) = &args.common.view.scene else {
         return Ok(cases::random(target, &settings.config, seed, beats));
     };
-    let geometry = args.common.geometry(name, args.common.size, settings)?;
+    let geometry = args.common.geometry(name, args.common.view.size, settings)?;
     let job = job(settings, &geometry, settings.options);
     scene_head(target, &job, name, beats)
         .ok_or_else(|| Failure::Input(format!("--scene {name}: nothing of it is drawn")))
