@@ -55,6 +55,9 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
     let targets = targets(args)?;
     let scenes = scene_names(args, &targets, &settings)?;
+    if scenes.is_empty() {
+        args.common.view.refuse_eyes()?;
+    }
     let out = args.out.clone().unwrap_or_else(|| output_folder("cosim"));
     let _tidy = Tidy::new(&out);
     let rtl = args.stimulus.rtl()?;

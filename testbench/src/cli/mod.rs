@@ -294,6 +294,14 @@ impl View {
         scene::open_projected(name, size, self.rig.as_deref(), self.projection)
     }
 
+    /// Refuses eyes where no scene is drawn that they could see.
+    fn refuse_eyes(&self) -> Result<(), Failure> {
+        let options = [("--rig", self.rig.is_some()), ("--projection", self.projection.is_some())];
+        options.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(option, _)| {
+            Err(Failure::Input(format!("{option}: no scene is drawn; name one with --scene")))
+        })
+    }
+
     /// The options as words of a command line.
     fn words(&self) -> Vec<String> {
         let mut words = Vec::new();

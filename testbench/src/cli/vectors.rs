@@ -34,6 +34,9 @@ pub(super) struct CheckArgs {
 
 pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
+    if args.common.view.scene.is_none() {
+        args.common.view.refuse_eyes()?;
+    }
     let targets = if args.targets.is_empty() { Target::ALL.to_vec() } else { args.targets.clone() };
     let rtl = args.stimulus.rtl()?;
     let (seed, beats) = (args.stimulus.seed, args.stimulus.beats.unwrap_or(BEATS) as usize);

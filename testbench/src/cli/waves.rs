@@ -62,6 +62,7 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
     let geometry = if needs_scene {
         Some(args.common.geometry(name, args.common.view.size, &settings)?)
     } else {
+        args.common.view.refuse_eyes()?;
         None
     };
     let job = geometry.as_ref().map(|geometry| job(&settings, geometry, settings.options));
