@@ -214,6 +214,29 @@ fn what_lies_on_a_border_is_drawn_once() {
 }
 
 #[test]
+fn a_tilted_head_sees_to_the_edges() {
+    // Rows that the primary has above or below its window are in the secondary's.
+    for (name, tilt) in [("village", 90.0), ("village", -60.0)] {
+        let mut scene = scene(name, Kind::TwoCentres);
+        scene.rig.head_tilt = tilt;
+        let geometry = geometry(&scene, &Config::FULL);
+        let job = job(Config::FULL, Options::new(&Config::FULL), &geometry);
+        let (frames, counts) = job.derived(false);
+        assert!(counts.derived > 200, "{name}: {} derived", counts.derived);
+        for (ours, direct) in frames.eyes.iter().zip(&job.direct()) {
+            let edge = (SIZE[0] * 12) as usize;
+            let pixels = ours.id.len();
+            let differ = |range: std::ops::Range<usize>| {
+                let pairs = ours.id[range.clone()].iter().zip(&direct.id[range]);
+                pairs.filter(|(a, b)| a != b).count()
+            };
+            let found = differ(0..edge) + differ(pixels - edge..pixels);
+            assert!(found < 2 * edge / 50, "{name} {tilt}: {found} of {} at the edges", 2 * edge);
+        }
+    }
+}
+
+#[test]
 fn symmetric_clipping_leaves_a_strip_blank() {
     let with = |kind| geometry(&scene("room", kind), &EXACT);
     let (whole, cut) = (with(Kind::TwoCentres), with(Kind::Symmetric));

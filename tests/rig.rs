@@ -184,7 +184,7 @@ fn what_runs_backward_is_told() {
     let forward = [20.0, 60.0, 90.0, 500.0];
     let pairs = forward.windows(2).map(|w| part([w[0], w[1]], [w[0] / 3.0, w[1] / 3.0]));
     assert_eq!(told(pairs.collect()), None);
-    assert_eq!(volume(Rig::default()).notes(), [String::new(); 0]);
+    assert!(volume(Rig::default()).notes().is_empty());
 }
 
 #[test]

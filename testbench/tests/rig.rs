@@ -159,8 +159,7 @@ fn what_a_projection_leaves_out_is_told_by_every_command_that_draws() {
         let line = text.lines().find(|line| line.contains("only in part")).expect(text).to_string();
         line[line.find("of ").unwrap()..line.find(" (see").unwrap_or(line.len())].to_string()
     };
-    let told =
-        counts(&out(&run(folder.path(), &format!("rig --scene windows --projection piecewise"))));
+    let told = counts(&out(&run(folder.path(), "rig --scene windows --projection piecewise")));
     assert!(told.contains("nearer than 320 or farther than 64000 is not drawn"), "{told}");
     for command in ["render --method direct --out drawn", "compare", "render --wire --out drawn"] {
         let line = format!("{command} --scene windows --projection piecewise --size 64x48");
