@@ -1,5 +1,6 @@
 //! BSP trees against direct rendering: each view by order alone, and both by one traversal.
 
+use std::time::{Duration, Instant};
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::scene::builtin::SCENES;
 use wheatstone_golden::scene::Cull;
@@ -13,11 +14,13 @@ use wheatstone_tests::visibility::{assert_seen, job, opaque, random_triangles, s
 fn check(name: &str, polygons: &[Polygon], size: [u32; 2]) -> Tree {
     let job = job(polygons, size);
     let surfaces = Surfaces::new(&job).expect("level and not anti-aliased");
+    let start = Instant::now();
     let tree = Tree::new(&surfaces);
+    let made = start.elapsed();
     let alone = Eye::BOTH.map(|eye| bsp::one(&surfaces, &tree, eye, &mut Unmetered));
     let both = bsp::both(&surfaces, &tree, &mut Unmetered);
     println!(
-        "{name}: {} polygons, {} pieces, {} planes between the eyes",
+        "{name}: {} polygons, {} pieces, {} planes between the eyes, made in {made:.2?}",
         surfaces.opaque.len(),
         tree.pieces(),
         tree.contested()
@@ -42,6 +45,19 @@ fn the_room_is_too() {
     let polygons = opaque(&scene("room", [160, 120], Cull::Back));
     let tree = check("room", &polygons, [160, 120]);
     assert!(tree.pieces() < 2 * polygons.len(), "{} of {}", tree.pieces(), polygons.len());
+}
+
+/// Scenes whose trees would take time by the square of their polygons without lines across the views.
+#[test]
+fn large_scenes_are_too() {
+    for (name, most) in [("office-15", 1.5), ("atoms", 3.0)] {
+        let polygons = opaque(&scene(name, [640, 480], Cull::Back));
+        let start = Instant::now();
+        let tree = check(name, &polygons, [640, 480]);
+        assert!(start.elapsed() < Duration::from_secs(20), "{name}: {:.1?}", start.elapsed());
+        let pieces = tree.pieces() as f64;
+        assert!(pieces < most * polygons.len() as f64, "{name}: {pieces} pieces");
+    }
 }
 
 #[test]

@@ -79,7 +79,8 @@ impl Disparity {
         }
         let level = stretches.iter().all(|s| s.axes[1].near == 0 && s.axes[1].slope == 0);
         let across = |k: usize, w: f64| stretches[k].axes[0].at(depth(w).max(0.0) as u32);
-        let ends = (0..ranges.len()).flat_map(|k| [across(k, ranges[k].near), across(k, ranges[k].far)]);
+        let ends =
+            (0..ranges.len()).flat_map(|k| [across(k, ranges[k].near), across(k, ranges[k].far)]);
         let ends: Vec<i64> = ends.collect();
         let ordered = level
             && ends.windows(2).all(|pair| match from {

@@ -9,14 +9,17 @@ use crate::stereo::{pieces, Job};
 use crate::texture::{Lookup, Texture};
 use thiserror::Error;
 
-/// Why hidden surfaces of a job cannot be resolved for both views at once.
+/// Why hidden surfaces of a job cannot be resolved.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum VisibilityError {
     /// There is one item a pixel.
     #[error("hidden surfaces are resolved at pixel centres: expected a build without antialias")]
     Antialias,
     /// The views do not share their scan lines.
-    #[error("polygon {id}: expected the same y in both views, which a tilted head does not give")]
+    #[error(
+        "polygon {id}: expected the same y in both views, whose scan lines share rows and steps \
+         along edges; with a tilted head a polygon crosses other rows in each view"
+    )]
     Tilted {
         /// Its id.
         id: u32,
@@ -36,26 +39,42 @@ pub struct Surfaces<'a> {
     pub height: u32,
     /// Widths of the numbers.
     pub formats: Formats,
+    /// A polygon that crosses other rows in the one view than in the other.
+    tilted: Option<u32>,
     background: [u8; 3],
     textures: &'a [Texture],
     lookup: Lookup,
 }
 
 impl<'a> Surfaces<'a> {
-    /// The surfaces of a job whose views share their scan lines.
+    /// The surfaces of a job without anti-aliasing.
     pub fn new(job: &Job<'a>) -> Result<Surfaces<'a>, VisibilityError> {
         let formats = Formats::new(&job.config);
         if formats.mask_bits > 1 {
             return Err(VisibilityError::Antialias);
         }
         let tilted = |p: &&Polygon| p.vertices.iter().any(|v| v.y[0] != v.y[1]);
-        if let Some(Polygon { id, .. }) = job.polygons.iter().find(tilted) {
-            return Err(VisibilityError::Tilted { id: *id });
-        }
+        let tilted = job.polygons.iter().find(tilted).map(|polygon| polygon.id);
         let drawn = pieces(job.polygons).filter_map(|p| drawn(p.into_owned()));
         let (opaque, translucent) = drawn.partition(|p| is_opaque(p, job.textures));
         let Job { width, height, background, textures, lookup, .. } = *job;
-        Ok(Surfaces { opaque, translucent, width, height, formats, background, textures, lookup })
+        let made = Surfaces {
+            opaque,
+            translucent,
+            width,
+            height,
+            formats,
+            tilted,
+            background,
+            textures,
+            lookup,
+        };
+        Ok(made)
+    }
+
+    /// Refuses views that do not share their scan lines.
+    pub fn level(&self) -> Result<(), VisibilityError> {
+        self.tilted.map_or(Ok(()), |id| Err(VisibilityError::Tilted { id }))
     }
 
     /// A cleared item buffer.

@@ -92,14 +92,15 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
         moments: &mut [T; VALUES],
     ) {
         let real = |n: i32| T::of(f64::from(n));
-        let fall = real(to.0.y[0] - from.0.y[0]);
+        let y = |v: &Vertex| v.y[self.eyes[0] as usize];
+        let fall = real(y(to.0) - y(from.0));
         for (area, eye) in areas.iter_mut().zip(self.eyes) {
             *area += real(from.0.x[eye as usize] + to.0.x[eye as usize]) * fall;
         }
         for (k, moment) in moments.iter_mut().enumerate() {
             *moment += (from.1[k] + to.1[k]) * fall;
         }
-        let (upper, lower) = if from.0.y[0] <= to.0.y[0] { (from, to) } else { (to, from) };
+        let (upper, lower) = if y(from.0) <= y(to.0) { (from, to) } else { (to, from) };
         if let Some(on) = Edge::new(upper.0, lower.0, self.eyes, 0, &self.formats) {
             self.insert(on, polygon, [upper.1, lower.1]);
         }
