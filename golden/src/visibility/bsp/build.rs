@@ -15,9 +15,12 @@ const CANDIDATES: usize = 16;
 const SAMPLES: usize = 48;
 /// A polygon cut counts as much as this many that are on one side too many.
 const COST_OF_CUT: usize = 16;
-/// Most pieces of a cell that is not to be divided by a line first. A tree of n polygons that see
-/// each other from one side only is as deep as they are many, which takes n² steps to make.
-const LARGE_CELL: usize = 2048;
+/// Most pieces of a cell that is never divided by a line. Where no plane divides the rest, as of a
+/// convex body, a tree is as deep as it has polygons, which takes steps by their square.
+const SMALL_CELL: usize = 256;
+/// Score from which a line is tried instead of a root: as of one that has three quarters of the
+/// sample more on the one side than on the other.
+const POOR: usize = 36;
 /// Polygons that are looked at to place a line.
 const LINE_SAMPLES: usize = 255;
 /// A line may cross one in so many of them.
@@ -109,11 +112,13 @@ impl<'a> Builder<'a> {
     /// Adds a node for the root of some pieces; the others, on its negative and positive side.
     fn divide(&mut self, mut pieces: Vec<Piece>) -> [Vec<Piece>; 2] {
         let present = [0, 1].map(|view| pieces.iter().any(|piece| piece.views[view].is_some()));
-        if let Some(line) = self.line(&pieces) {
+        let root = self.root(&pieces, present);
+        let poor = pieces.len() > SMALL_CELL && root.is_none_or(|(_, score)| score >= POOR);
+        if let Some(line) = poor.then(|| self.line(&pieces)).flatten() {
             self.nodes.push(Node::new(NONE, [None, None], [Ordering::Equal; 2]));
             return self.parted(pieces, |builder, piece| builder.cut_by_line(piece, &line));
         }
-        let Some(root) = self.root(&pieces, present) else {
+        let Some((root, _)) = root else {
             // No plane divides both views, so each has a tree of its own.
             self.nodes.push(Node::new(NONE, [None, None], [Ordering::Equal; 2]));
             return apart(pieces);
@@ -222,13 +227,9 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// A row or a column of each view that divides a large cell, where nearly all pieces lie on one
-    /// side of it. What is on different sides of it hides nothing of each other, in whatever order:
+    /// A row or a column of each view that divides a cell, where most pieces lie on one side of it. What is on different sides of it hides nothing of each other, in whatever order:
     /// it is the image of a plane through the eye.
     fn line(&self, pieces: &[Piece]) -> Option<[Side; 2]> {
-        if pieces.len() <= LARGE_CELL {
-            return None;
-        }
         let sample: Vec<[Option<Part>; 2]> =
             spaced(pieces.len(), LINE_SAMPLES).map(|n| self.parts(&pieces[n])).collect();
         let lines = Axis::BOTH.map(|axis| {
@@ -271,11 +272,11 @@ impl<'a> Builder<'a> {
         Some(planes[view]?.side_of(&self.planes[polygon as usize][view]?))
     }
 
-    /// Position of the piece that is to be the root: of a few evenly spaced candidates the one
+    /// Position of the piece that is to be the root, and its score: of a few evenly spaced candidates the one
     /// that cuts fewest of a sample and divides it most evenly. Planes that the eyes are on
     /// different sides of come last: above them there is one order for both views. None if no
     /// plane is known in all views that are present.
-    fn root(&self, pieces: &[Piece], present: [bool; 2]) -> Option<usize> {
+    fn root(&self, pieces: &[Piece], present: [bool; 2]) -> Option<(usize, usize)> {
         let known = |piece: &Piece| {
             let planes = &self.planes[piece.polygon as usize];
             [0, 1].iter().all(|&view| !present[view] || planes[view].is_some())
@@ -288,7 +289,7 @@ impl<'a> Builder<'a> {
         let best: Vec<usize> = all.iter().copied().filter(|&n| agreed(&pieces[n])).collect();
         let candidates = if best.is_empty() { all } else { best };
         let candidates = spaced(candidates.len(), CANDIDATES).map(|n| candidates[n]);
-        candidates.min_by_key(|&n| self.score(pieces, n))
+        candidates.map(|n| (n, self.score(pieces, n))).min_by_key(|&(_, score)| score)
     }
 
     /// How bad a root is.
