@@ -78,15 +78,8 @@ impl Disparity {
             farthest.last = u32::MAX;
         }
         let level = stretches.iter().all(|s| s.axes[1].near == 0 && s.axes[1].slope == 0);
-        let across = |k: usize, w: f64| stretches[k].axes[0].at(depth(w).max(0.0) as u32);
-        let ends =
-            (0..ranges.len()).flat_map(|k| [across(k, ranges[k].near), across(k, ranges[k].far)]);
-        let ends: Vec<i64> = ends.collect();
-        let ordered = level
-            && ends.windows(2).all(|pair| match from {
-                Eye::Left => pair[0] <= pair[1],
-                Eye::Right => pair[0] >= pair[1],
-            });
+        let upright = |slope: i64| if from == Eye::Left { slope >= 0 } else { slope <= 0 };
+        let ordered = level && stretches.len() == 1 && upright(stretches[0].axes[0].slope);
         Disparity { stretches, level, ordered }
     }
 
@@ -120,8 +113,8 @@ impl Disparity {
     }
 
     /// Whether of two pixels of a row that meet in the other view the nearer one comes from the
-    /// side that [`other_eye`](super::warping::other_eye) scans last: heads are upright, and no
-    /// partition is perceived behind one that is farther in the scene.
+    /// side that [`other_eye`](super::warping::other_eye) scans last: the head is upright, and there
+    /// are no partitions, between which disparity may jump.
     pub fn is_ordered(&self) -> bool {
         self.ordered
     }
