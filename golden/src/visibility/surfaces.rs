@@ -1,12 +1,14 @@
 //! What hidden-surface algorithms work on.
 
 use super::{Items, NO_ITEM};
+use crate::cost;
 use crate::direct::{depth_at, Direct, Shade};
 use crate::formats::{Eye, Formats};
 use crate::frame::Frame;
 use crate::setup::{Attributes, Eyes, Outline, Polygon};
 use crate::stereo::{pieces, Job};
 use crate::texture::{Lookup, Texture};
+use crate::work::{Meter, Unmetered};
 use thiserror::Error;
 
 /// Why hidden surfaces of a job cannot be resolved.
@@ -85,20 +87,32 @@ impl<'a> Surfaces<'a> {
     /// The frame of an eye that sees these items, coloured as direct rendering does it, with the
     /// translucent polygons drawn over it.
     pub fn frame(&self, items: &Items, eye: Eye) -> Frame {
+        self.frame_metered(items, eye, &mut Unmetered)
+    }
+
+    /// The same, noting its arithmetic.
+    pub fn frame_metered(&self, items: &Items, eye: Eye, meter: &mut impl Meter) -> Frame {
         let direct = Direct { formats: self.formats, textures: self.textures, lookup: self.lookup };
         let mut frame = Frame::new(self.width, self.height, self.background);
         let mut known: Vec<Option<Attributes>> = vec![None; self.opaque.len()];
         for (index, &item) in items.item.iter().enumerate().filter(|(_, &item)| item != NO_ITEM) {
             let polygon = &self.opaque[item as usize];
-            let attributes = known[item as usize]
-                .get_or_insert_with(|| Attributes::new(polygon, eye, &self.formats));
+            let attributes = known[item as usize].get_or_insert_with(|| {
+                let attributes = Attributes::new(polygon, eye, &self.formats);
+                let corners = polygon.vertices.len();
+                meter.note(|work| work.fixed_point += cost::attributes(corners, &attributes));
+                attributes
+            });
+            meter.note(|work| work.fixed_point += cost::LINEAR + direct.colour_cost(polygon));
             let (x, y) = (index % self.width as usize, index / self.width as usize);
             let shade = Shade { attributes, polygon, direct: &direct };
             frame.colour[index] = shade.colour(x as i64, y as i64).rgb();
             frame.depth[index] = depth_at(&attributes.depth, x as i64, y as i64);
             frame.id[index] = polygon.id;
         }
-        self.translucent.iter().for_each(|polygon| direct.draw(polygon, eye, &mut frame));
+        for polygon in &self.translucent {
+            direct.draw_metered(polygon, eye, &mut frame, meter);
+        }
         frame
     }
 }

@@ -3,12 +3,13 @@
 use super::piece::Region;
 use super::scan::Scan;
 use super::{hull, Node, Part, Tree, NONE};
+use crate::cost;
 use crate::formats::{Eye, FRACTION_BITS};
 use crate::setup::Linear;
 use crate::visibility::depths::keep_nearer;
 use crate::visibility::scan_line::Line;
 use crate::visibility::{Items, Surfaces};
-use crate::work::Meter;
+use crate::work::{Meter, Operations};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -150,7 +151,12 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
         let polygon = &surfaces.opaque[node.polygon as usize];
         let formats = &surfaces.formats;
         let depth = node.depth.as_ref().filter(|_| *contested);
-        let steps = if seen == EYES && *level {
+        // An edge and the inverse of its height, for all views or for each.
+        let edge = |views| cost::edge(views) + Operations::new(0, 0, 1, 0);
+        let corners = polygon.vertices.len() as u64;
+        let shared = seen == EYES && *level;
+        let edges = if shared { edge(EYES) } else { edge(1) * seen as u64 } * corners;
+        let steps = if shared {
             let converted = scan.rows(polygon, *eyes, &rows, formats, |row, spans| {
                 for view in 0..EYES {
                     let depth = depth.filter(|_| view + 1 < EYES);
@@ -174,6 +180,9 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
         canvas.meter.note(|work| {
             work.edge_updates += steps[0] as u64;
             work.interpolations += steps[1] as u64;
+            // x of two edges is stepped for each row of a view, and compared.
+            let rows = steps[1] as u64 / 2;
+            work.fixed_point += Operations::new(2, 0, 0, 1) * rows + edges;
         });
     }
 }
@@ -203,11 +212,17 @@ impl<M: Meter, const EYES: usize> Canvas<'_, M, EYES> {
         if first >= end {
             return;
         }
-        self.meter.note(|work| work.pixels_written += (end - first) as u64);
+        self.meter.note(|work| {
+            work.pixels_tested += (end - first) as u64;
+            work.pixels_written += (end - first) as u64;
+        });
         let Some(depth) = depth else {
             return fill(&mut items.row(row)[first as usize..end as usize], polygon);
         };
-        self.meter.note(|work| work.depth_tests += (end - first) as u64);
+        self.meter.note(|work| {
+            work.depth_tests += (end - first) as u64;
+            work.fixed_point += cost::LINEAR + cost::STEP_AND_COMPARE * (end - first) as u64;
+        });
         self.z_buffer.draw(items, row, first..end, depth, polygon);
     }
 }

@@ -75,7 +75,7 @@ pub fn draw<'a, T: Real, C, M: Meter, const EYES: usize, const VALUES: usize>(
     let mut table = Table::new(eyes, height, *formats);
     for (seen, corners) in polygons {
         meter.note(|work| work.polygons += seen.iter().filter(|&&seen| seen).count() as u64);
-        table.add(seen, corners, &values);
+        table.add(seen, corners, &values, meter);
     }
     let mut depths = Depths::new(width);
     for row in 0..height as i32 {

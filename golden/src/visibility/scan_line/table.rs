@@ -1,9 +1,10 @@
 //! The edges of all polygons: buckets by the first row, and those that cross the current row.
 
+use crate::cost;
 use crate::formats::{Eye, Formats};
 use crate::setup::Vertex;
 use crate::visibility::edge::{Along, Edge};
-use crate::work::{Meter, Real};
+use crate::work::{Meter, Operations, Real};
 use std::ops::Range;
 
 /// No edge, or the end of a bucket.
@@ -59,6 +60,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
         seen: [bool; EYES],
         corners: impl Iterator<Item = &'a Vertex> + Clone,
         values: impl Fn(&Vertex) -> [T; VALUES],
+        meter: &mut impl Meter,
     ) {
         let number = self.faces.len() as u32;
         let mut slopes = [[T::of(0.0); VALUES]; EYES];
@@ -69,6 +71,9 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
             for corner in corners {
                 let to = (corner, values(corner));
                 self.side(number, from, to, &mut areas, &mut moments);
+                // Differences and sums of coordinates, and the edge.
+                let sums = Operations::new(1 + EYES as u64, 0, 0, 0);
+                meter.note(|work| work.fixed_point += sums + cost::edge(EYES));
                 from = to;
             }
             let one = T::of(self.formats.one_pixel() as f64);
@@ -138,6 +143,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
                 meter.note(|work| {
                     work.edge_updates += 1;
                     work.interpolations += (EYES + VALUES) as u64;
+                    work.fixed_point += Operations::new(EYES as u64, 0, 0, 0);
                 });
             }
             left
