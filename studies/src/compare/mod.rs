@@ -129,7 +129,7 @@ pub fn compare(
     let start = Instant::now();
     let direct = job.direct();
     let rounds = ROUNDS_TIME.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6);
-    let rounds = rounds.clamp(7.0, 41.0) as usize;
+    let rounds = rounds.clamp(7.0, 31.0) as usize;
     let mut outcomes = Vec::new();
     for method in METHODS {
         tell(method);
