@@ -2,6 +2,8 @@
 
 use super::{Judged, Method, Pair, Timed, Unsuited};
 use crate::prepared::Prepared;
+use crate::timing::shortest;
+use std::time::Duration;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::{Frame, Frames};
 use wheatstone_golden::primary::Counts;
@@ -138,12 +140,10 @@ fn painted_first<M: Meter>(prepared: &Prepared, surfaces: &Surfaces, meter: &mut
     bsp::one(surfaces, prepared.tree(surfaces), Eye::Left, meter)
 }
 
-/// Makes the tree anew.
-fn make_tree(prepared: &Prepared) {
+/// Time to make the tree anew.
+fn make_tree(prepared: &Prepared) -> Duration {
     // Only scenes that can be drawn are timed.
-    if let Ok(surfaces) = surfaces(prepared) {
-        std::hint::black_box(Tree::new(&surfaces));
-    }
+    surfaces(prepared).map_or(Duration::ZERO, |surfaces| shortest(1, || Tree::new(&surfaces)))
 }
 
 /// Both views at once, and the work that they take more than the left one by the same code.

@@ -10,7 +10,7 @@ mod methods;
 pub use methods::METHODS;
 
 use crate::prepared::Prepared;
-use crate::timing::ratio;
+use crate::timing::{ratio, shortest};
 use serde_json::{json, Value};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -33,8 +33,9 @@ pub struct Method {
     pub description: &'static str,
     /// Which views can be wrong.
     pub judged: Judged,
-    /// What must be made beforehand and is not part of what is timed.
-    pub preparation: Option<fn(&Prepared)>,
+    /// Makes what must be made beforehand, which is not part of what is timed, and tells how long that
+    /// takes.
+    pub preparation: Option<fn(&Prepared) -> Duration>,
     /// Draws both views and counts.
     pub draw: fn(&Prepared) -> Result<Pair, Unsuited>,
     /// What is timed.
@@ -152,7 +153,7 @@ pub fn compare(
                     Judged::Both => Quality::together(views),
                 };
                 let time = second_view_time(method, prepared, &direct[0], rounds);
-                let preparation = preparation_time(method, prepared, rounds);
+                let preparation = preparation_time(method, prepared);
                 Ok(Measured { work: pair.work, time, preparation, views, quality, file })
             }
         };
@@ -174,9 +175,12 @@ fn second_view_time(method: &Method, prepared: &Prepared, first: &Frame, rounds:
 }
 
 /// Time of what a method must make beforehand over that of direct rendering of one view.
-fn preparation_time(method: &Method, prepared: &Prepared, rounds: usize) -> Option<f64> {
+fn preparation_time(method: &Method, prepared: &Prepared) -> Option<f64> {
     let direct = || prepared.job().view(Eye::Right, &mut Unmetered);
-    method.preparation.map(|make| ratio(rounds.min(3), || make(prepared), direct).median)
+    method.preparation.map(|make| {
+        let made = make(prepared);
+        made.as_secs_f64() / shortest(3, direct).as_secs_f64()
+    })
 }
 
 /// Direct rendering in faint grey; over it red where another polygon is shown, magenta where none
