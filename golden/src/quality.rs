@@ -55,7 +55,7 @@ impl Quality {
             pixels: seen.len(),
             colours: count(&|n| colour(n) != direct.colour[n]),
             ids: count(&|n| id(n) != direct.id[n]),
-            ties: ties(job, eye, direct, |n| id(n)),
+            ties: ties(job, eye, direct, id),
             gaps: count(&|n| id(n) == NO_ID && direct.id[n] != NO_ID),
         }
     }
