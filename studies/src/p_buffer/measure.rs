@@ -150,7 +150,7 @@ impl Office {
             visible: visible.ids().len(),
             full: [first.second, next.second].map(milliseconds),
             p_buffer: [first.first, next.first].map(milliseconds),
-            first_ratio: first.median,
+            first_ratio: first.of_shortest(),
             work: [full, flagged],
             wrong: step.percent()[0],
             faults: step.warped.faults(&step.truth),
