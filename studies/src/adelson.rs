@@ -273,16 +273,3 @@ fn times() -> Table {
     add("back faces", Some(FACES), 1.0 / 3.0, time(ROUNDS, &Faces::<f64>::new(ITEMS)));
     Table { title: "Time separately : time together, measure III".into(), rows }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_counted_holds() {
-        let tables = vec![savings(), operations(), interpolations()];
-        let report = Report { tables, ..Report::default() };
-        let differing: Vec<_> = report.differing().collect();
-        assert!(differing.is_empty(), "{differing:?}");
-    }
-}

@@ -13,16 +13,16 @@ pub(crate) const TOWER: &str =
 pub(crate) const FLAT_TRIANGLE: &str = "4.5 %: 1442 to 1376 is a saving of 4.58 %";
 
 // Heo, Jung and Wohn.
-pub(crate) const COPIES: &str =
-    "Copies of a room: n rooms of 3,652 polygons are n × 3,652, here without the surplus printed";
+pub(crate) const COPIES: &str = "Copies of a room: n rooms of 3,652 polygons have n × 3,652";
 pub(crate) const FIFTEEN_THOUSAND: &str =
     "15,000 polygons: by table 1 both views take the same time at 14,155";
 
 // NASA.
 pub(crate) const WIDTH: &str =
     "Width: the table follows from its field of 40 degrees, not from a screen 12.4 in wide";
-pub(crate) const WHOLE_DEGREES: &str = "Whole degrees: printed to whole degrees with a zero after";
-pub(crate) const ROW_4: &str = "Row 4: of the matrix has plus signs; the scan shows minus";
+pub(crate) const WHOLE_DEGREES: &str =
+    "Whole degrees: the zero after the point is none of the figure's";
+pub(crate) const ROW_4: &str = "Row 4: its signs are plus; the scan shows minus";
 pub(crate) const SUBTRACT: &str =
     "Subtract: with SI = SD the denominator is d' + MAXD − SD, not + SD";
 pub(crate) const SIMILAR_TRIANGLES: &str = "Similar triangles: they give NCP/POT, not NCP/FCP";

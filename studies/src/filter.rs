@@ -107,6 +107,7 @@ fn terms(two: &[f64], three: &[f64]) -> Table {
     let signed: Vec<f64> = (1..=FILTER_LIMIT).map(|n| least_error(n, &[1.0, -1.0])).collect();
     let whole = 256.0 * two.iter().sum::<f64>();
     let rows = vec![
+        count("entries of the table", FILTER_LIMIT).printed(29.0),
         percent("two terms, largest error", largest(two), 1).printed(12.5),
         percent("two terms, mean error, n = 2 … 29", mean(&two[1..]), 2).printed(4.26),
         percent("two terms, mean error, n = 1 … 29", mean(two), 2)
@@ -161,6 +162,10 @@ fn gates() -> Table {
         TABLE_1.iter().map(|&(unit, gates, _)| Row::quoted(unit, gates.into())).collect();
     let [three, all] = [&TABLE_1[2..3], &TABLE_1[..]]
         .map(|units| units.iter().map(|(_, gates, units)| gates * units).sum::<u32>());
+    // The text says how many gates the system of figure 3 has, not which.
+    let derivation = [0, 1, 6].map(|n| TABLE_1[n].1).iter().sum::<u32>();
+    let what = "pure derivation: interpolators of x and y, redirection";
+    rows.push(Row::new(what, derivation.into(), 0, Check::Trend).printed(5000.0));
     rows.push(count("three edge interpolators", three).printed(8304.0));
     let hybrid = count("hybrid system, sum", all).printed(30_000.0);
     rows.push(hybrid.corrected(22_754.0, errata::GATES));

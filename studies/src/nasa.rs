@@ -280,7 +280,12 @@ fn asymptotic_map() -> Table {
 
 fn figure_7() -> Table {
     let observer = Observer::new(piecewise());
-    let mut rows = Vec::new();
+    let flat = |partition: &&Partition| partition.min_distance == partition.max_distance;
+    let count = |what: &str, n: usize| Row::new(what, n as f64, 0, Check::Digits);
+    let mut rows = vec![
+        count("partitions", observer.camera.lenses().len()).expected(4.0),
+        count("flat partitions", partitions().iter().filter(flat).count()).expected(2.0),
+    ];
     for (n, (partition, lens)) in partitions().iter().zip(observer.camera.lenses()).enumerate() {
         let Partition { near, far, min_distance, max_distance } = *partition;
         let seen = |distance: f64| {
@@ -369,21 +374,4 @@ fn picture(folder: &Path, kind: Kind) -> Result<PathBuf, StudyError> {
     let file = folder.join(format!("room_{}.png", kind.name()));
     Composite::Parallel.write(&file, &Views { left: &left, right: &right }, None)?;
     Ok(file)
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_figure_holds() {
-        let folder = std::env::temp_dir().join(format!("wheatstone-nasa-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        let report = super::run(&folder).unwrap();
-        for table in &report.tables {
-            println!("{table}");
-        }
-        let differing: Vec<&str> = report.differing().map(|row| row.what.as_str()).collect();
-        assert!(differing.is_empty(), "{differing:?}");
-        assert!(report.files.iter().all(|file| file.exists()) && report.files.len() == 9);
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
 }
