@@ -252,9 +252,9 @@ fn scan_lines(village: &Scene, model: &Model) -> Result<Table, StudyError> {
     Ok(Table { title, rows })
 }
 
-/// The simple renderer.
-fn renderer(model: &Model) -> Result<Table, StudyError> {
-    let (mut twice, mut once) = (Work::default(), Work::default());
+/// The simple renderer's work for two views one by one and for both at once, and pixels that differ.
+fn draw(model: &Model) -> ([Work; 2], usize) {
+    let [mut twice, mut once] = [Work::default(); 2];
     let [mut left, mut right] = [(); 2].map(|()| model.views::<1>());
     let mut both = model.views::<2>();
     let ((), operations) = counted(|| {
@@ -266,6 +266,12 @@ fn renderer(model: &Model) -> Result<Table, StudyError> {
     once.operations = operations;
     let pixels = different(&left.colours[0], &both.colours[0])
         + different(&right.colours[0], &both.colours[1]);
+    ([twice, once], pixels)
+}
+
+/// The simple renderer.
+fn renderer(model: &Model) -> Result<Table, StudyError> {
+    let ([twice, once], pixels) = draw(model);
     let mut rows = vec![
         Row::new("triangles", model.triangles() as f64, 0, Check::Within(0.05)).printed(1100.0)
     ];
@@ -282,13 +288,16 @@ fn renderer(model: &Model) -> Result<Table, StudyError> {
         twice.edge_updates,
         once.edge_updates,
     ));
-    let values = 100.0 * (1.0 - once.interpolations as f64 / twice.interpolations as f64);
     let what = "village: interpolations saved, those of pixels included";
-    rows.push(Row::new(what, values, 1, Check::Trend).unit("%"));
+    rows.push(saved(what.into(), twice.interpolations, once.interpolations, Check::Trend));
     rows.push(total("village", &twice, &once));
     rows.push(differing("village", pixels));
     let large = Model::new(&scene::open("village", Some(LARGE), None)?, &formats())?;
-    rows.extend(time_rows(&VILLAGE, &format!("village, {}", size(LARGE)), time(&large)));
+    let what = format!("village, {}", size(LARGE));
+    rows.extend(time_rows(&VILLAGE, &what, time(&large)));
+    let ([twice, once], pixels) = draw(&large);
+    rows.push(total(&what, &twice, &once));
+    rows.push(differing(&what, pixels));
     let title = format!("Simple renderer (Table 1), village, views of {}", size(SIZE));
     Ok(Table { title, rows })
 }
