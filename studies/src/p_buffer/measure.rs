@@ -12,7 +12,7 @@ use wheatstone_golden::visibility::{Model, Pose, View};
 use wheatstone_golden::work::{Unmetered, Work};
 
 /// Runs of each piece of code that is timed.
-const ROUNDS: usize = 21;
+const ROUNDS: usize = 81;
 /// Further runs of the view from visible polygons, which takes a fraction of a millisecond.
 const SHORT_RUNS: usize = 200;
 /// How far the viewer moves in the publication's figures 3 to 7: 20 cm to the left, and three degrees
