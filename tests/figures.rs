@@ -114,7 +114,7 @@ fn the_filter_s_figures_are_covered() {
         ("two terms, largest error", 12.5),
         ("first n with the largest error", 9.0),
         ("last n with the largest error", 18.0),
-        ("two terms, mean error, n = 1 … 29", 4.1082974137931036),
+        ("two terms, mean error, n = 1 … 29", 4.108_297_413_793_104),
         ("two terms, mean error, n = 2 … 29", 4.255022321428571),
         ("n for which white overflows 8 bits", 9.0),
         ("largest white, shifts cut", 286.0),
