@@ -5,6 +5,7 @@
 
 pub mod adelson;
 pub mod compare;
+mod errata;
 pub mod filter;
 pub mod height_field;
 pub mod nasa;
