@@ -4,7 +4,9 @@ use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::{Coordinate, Eye, Formats, Quantity, DEPTH_MAX};
 use wheatstone_golden::frame::NO_ID;
 use wheatstone_golden::projection::{Kind, Partition, Piecewise, Projection};
-use wheatstone_golden::scene::{self, open_projected, Camera, Geometry, Scene};
+use wheatstone_golden::scene::{
+    self, open_projected, Camera, Geometry, Material, Mesh, Rig, Scene,
+};
 use wheatstone_golden::setup::{Arrangement, Options, Placement};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
@@ -156,6 +158,82 @@ fn a_flat_partition_shows_both_eyes_the_same() {
     assert!(left == right);
     let (frames, _) = job(EXACT, Options::new(&EXACT), &geometry).derived(false);
     assert!(frames.eyes[0] == left && frames.eyes[1] == left);
+}
+
+/// A triangle at a distance, turned to a side with `lean`.
+fn triangle(distance: f64, lean: f64, rig: Rig) -> Scene {
+    let z = distance - rig.viewing_distance;
+    let positions = vec![[-5.0, -4.0, z], [5.0, -4.0, z + lean], [0.0, 5.0, z]];
+    let mesh = Mesh { positions, triangles: vec![[0, 1, 2]], ..Mesh::default() };
+    let [width, height] = SIZE;
+    let materials = vec![Material::default()];
+    Scene { width, height, rig, meshes: vec![mesh], materials, ..Scene::default() }
+}
+
+#[test]
+fn what_lies_on_a_border_is_drawn_once() {
+    let part = |near: f64, far: f64, max_distance: f64| Partition {
+        near,
+        far,
+        min_distance: 40.0,
+        max_distance,
+    };
+    let partitions = vec![part(40.0, 60.0, 60.0), part(60.0, 70.0, 70.0), part(80.0, 90.0, 90.0)];
+    let piecewise = Piecewise { partitions, ..Piecewise::default() };
+    let rig = Rig { projection: Projection::Piecewise(piecewise), ..Rig::default() };
+    // Flat at a border; a leaning one that only touches it; one that crosses it.
+    for (distance, lean, pieces) in [
+        (40.0, 0.0, 1),
+        (60.0, 0.0, 1),
+        (70.0, 0.0, 1),
+        (75.0, 0.0, 0),
+        (80.0, 0.0, 1),
+        (90.0, 0.0, 1),
+        (95.0, 0.0, 0),
+        (60.0, 1.0, 1),
+        (60.0, -1.0, 1),
+        (59.5, 1.0, 2),
+        (70.0, 1.0, 0),
+        (69.5, 1.0, 1),
+        (40.0, -1.0, 0),
+    ] {
+        let drawn = geometry(&triangle(distance, lean, rig.clone()), &EXACT);
+        let what = format!("{distance} {lean}: {:?}", drawn.counts);
+        let ids: std::collections::BTreeSet<u32> = drawn
+            .polygons
+            .iter()
+            .map(|p| p.vertices.iter().map(|v| v.depth).max().unwrap_or(0))
+            .collect();
+        assert_eq!(ids.len(), pieces, "{what}");
+        assert_eq!(drawn.counts.empty, 0, "{what}");
+    }
+    // The farther partition's: at 40, not at 60, where nothing would be moved.
+    let flat = geometry(&triangle(60.0, 0.0, rig), &EXACT);
+    let [left, right] = [0, 1].map(|eye| flat.polygons[0].vertices[0].x[eye]);
+    assert!(left > right, "before the screen");
+}
+
+#[test]
+fn a_tilted_head_sees_to_the_edges() {
+    // Rows that the primary has above or below its window are in the secondary's.
+    for (name, tilt) in [("village", 90.0)] {
+        let mut scene = scene(name, Kind::TwoCentres);
+        scene.rig.head_tilt = tilt;
+        let geometry = geometry(&scene, &Config::FULL);
+        let job = job(Config::FULL, Options::new(&Config::FULL), &geometry);
+        let (frames, counts) = job.derived(false);
+        assert!(counts.derived > 200, "{name}: {} derived", counts.derived);
+        for (ours, direct) in frames.eyes.iter().zip(&job.direct()) {
+            let edge = (SIZE[0] * 12) as usize;
+            let pixels = ours.id.len();
+            let differ = |range: std::ops::Range<usize>| {
+                let pairs = ours.id[range.clone()].iter().zip(&direct.id[range]);
+                pairs.filter(|(a, b)| a != b).count()
+            };
+            let found = differ(0..edge) + differ(pixels - edge..pixels);
+            assert!(found < 2 * edge / 50, "{name} {tilt}: {found} of {} at the edges", 2 * edge);
+        }
+    }
 }
 
 #[test]

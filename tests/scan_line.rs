@@ -6,12 +6,12 @@ use wheatstone_golden::scene::builtin::SCENES;
 use wheatstone_golden::scene::Cull;
 use wheatstone_golden::visibility::{scan_line, Surfaces};
 use wheatstone_golden::work::{Counted, Unmetered, Work};
-use wheatstone_tests::visibility::{assert_seen, job, opaque, random_triangles, scene};
+use wheatstone_tests::visibility::{assert_seen, job, opaque, random_triangles, scene, tilted};
 
 /// Both views at once are the same as each alone, and as direct rendering.
 fn check(name: &str, polygons: &[wheatstone_golden::setup::Polygon], size: [u32; 2]) {
     let job = job(polygons, size);
-    let surfaces = Surfaces::new(&job).expect("level and not anti-aliased");
+    let surfaces = Surfaces::new(&job).expect("not anti-aliased");
     let both = scan_line::both::<f64>(&surfaces, &mut Unmetered);
     for eye in Eye::BOTH {
         let alone = scan_line::one::<f64>(&surfaces, eye, &mut Unmetered);
@@ -38,12 +38,20 @@ fn random_triangles_that_pass_through_each_other() {
     }
 }
 
+/// Then each view has a pass of its own.
+#[test]
+fn views_of_a_tilted_head() {
+    for (name, tilt) in [("exclusive", 20.0), ("village", -90.0)] {
+        check(name, &opaque(&tilted(name, [160, 120], tilt)), [160, 120]);
+    }
+}
+
 #[test]
 fn translucent_polygons_are_drawn_over_the_others() {
     let geometry = scene("room", [320, 240], Cull::None);
     let job = job(&geometry.polygons, [320, 240]);
     let job = wheatstone_golden::stereo::Job { textures: &geometry.textures, ..job };
-    let surfaces = Surfaces::new(&job).expect("level and not anti-aliased");
+    let surfaces = Surfaces::new(&job).expect("not anti-aliased");
     assert!(surfaces.translucent.len() > 100);
     let both = scan_line::both::<f64>(&surfaces, &mut Unmetered);
     for (eye, direct) in Eye::BOTH.into_iter().zip(job.direct()) {
@@ -58,7 +66,7 @@ fn translucent_polygons_are_drawn_over_the_others() {
 fn work_of_both_views_at_once() {
     let polygons = opaque(&scene("village", [320, 240], Cull::Back));
     let job = job(&polygons, [320, 240]);
-    let surfaces = Surfaces::new(&job).expect("level and not anti-aliased");
+    let surfaces = Surfaces::new(&job).expect("not anti-aliased");
     let count = |run: &dyn Fn(&mut Work)| {
         let mut work = Work::default();
         let (_, operations) = wheatstone_golden::work::counted(|| run(&mut work));
@@ -87,6 +95,8 @@ fn what_cannot_be_shared_is_refused() {
     assert!(Surfaces::new(&full).unwrap_err().to_string().contains("antialias"));
     let mut tilted = polygons.clone();
     tilted[5].vertices[1].y[1] += 1;
-    let error = Surfaces::new(&job(&tilted, [64, 48])).unwrap_err().to_string();
+    let job = job(&tilted, [64, 48]);
+    let surfaces = Surfaces::new(&job).expect("not anti-aliased");
+    let error = surfaces.level().unwrap_err().to_string();
     assert!(error.contains(&format!("polygon {}", tilted[5].id)) && error.contains("tilted"));
 }

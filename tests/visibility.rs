@@ -17,6 +17,14 @@ pub fn scene(name: &str, size: [u32; 2], cull: Cull) -> Geometry {
     scene.geometry(&Formats::new(&Config::DEFAULT), &options).expect("it is sound")
 }
 
+/// A built-in scene as a viewer with a tilted head sees it.
+pub fn tilted(name: &str, size: [u32; 2], degrees: f64) -> Geometry {
+    let mut scene = scene::open(name, Some(size), None).expect("a built-in scene");
+    scene.rig.head_tilt = degrees;
+    let formats = Formats::new(&Config::DEFAULT);
+    scene.geometry(&formats, &scene::Options::default()).expect("it is sound")
+}
+
 /// The opaque polygons of a scene, without their textures.
 pub fn opaque(geometry: &Geometry) -> Vec<Polygon> {
     let solid = |p: &&Polygon| p.vertices.iter().all(|v| v.colour[0].0[3] == 255);

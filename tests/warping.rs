@@ -1,8 +1,14 @@
 //! Image warping: its order of scanning, its reprojection, and the count of its faults.
 
-use wheatstone_golden::formats::Eye;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::direct::Direct;
+use wheatstone_golden::formats::{Eye, Formats, DEPTH_MAX};
 use wheatstone_golden::frame::{Frame, NO_ID};
-use wheatstone_golden::scene::{builtin, Scene};
+use wheatstone_golden::projection::Kind;
+use wheatstone_golden::scene::{builtin, open_projected, Scene};
+use wheatstone_golden::setup::{Attributes, Eyes, Outline, Polygon, Vertex};
+use wheatstone_golden::stereo::Job;
+use wheatstone_golden::texture::Lookup;
 use wheatstone_golden::visibility::warping::{self, Disparity, Fault, Warped};
 use wheatstone_golden::visibility::z_buffer::ZBuffer;
 use wheatstone_golden::visibility::{Model, Pose, View};
@@ -113,6 +119,121 @@ fn a_viewer_who_stays_sees_the_same() {
     let back = warping::moved(&there.frame, &aside, &view, scene.background, &mut Unmetered);
     let faults = back.faults(&source);
     assert!(faults.see_through * 50 < faults.pixels, "{faults:?}");
+}
+
+/// The place in the right view of a place in the left one, by the corners of a polygon as they were
+/// projected and snapped for each eye: disparity is affine on a plane.
+fn by_corners(corners: &[Vertex; 3], [x, y]: [f64; 2]) -> [f64; 2] {
+    let place = |n: usize, eye: usize| {
+        [f64::from(corners[n].x[eye]) / 256.0, f64::from(corners[n].y[eye]) / 256.0]
+    };
+    let [a, b, c] = [0, 1, 2].map(|n| place(n, 0));
+    let cross = |u: [f64; 2], v: [f64; 2]| u[0] * v[1] - u[1] * v[0];
+    let from = |u: [f64; 2], v: [f64; 2]| [v[0] - u[0], v[1] - u[1]];
+    let area = cross(from(a, b), from(a, c));
+    let s = cross(from(a, [x, y]), from(a, c)) / area;
+    let t = cross(from(a, b), from(a, [x, y])) / area;
+    let [a, b, c] = [0, 1, 2].map(|n| place(n, 1));
+    [0, 1].map(|k| a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]))
+}
+
+/// Of each polygon with some area on its own: every pixel of it is moved to where the same point of
+/// it is projected for the other eye. Returns how many pixels were looked at.
+fn check_moves(name: &str, kind: Kind, tilt: f64) -> usize {
+    const SIZE: [u32; 2] = [160, 120];
+    let mut scene = open_projected(name, Some(SIZE), None, Some(kind)).expect("built in");
+    scene.rig.head_tilt = tilt;
+    let formats = Formats::new(&Config::DEFAULT);
+    let options = wheatstone_golden::scene::Options::default();
+    let geometry = scene.geometry(&formats, &options).expect("it is sound");
+    let disparity = Disparity::new(&scene.rig, Eye::Left);
+    let direct = Direct { formats, textures: &[], lookup: Lookup::Nearest };
+    let mut pixels = 0;
+    let areas = |p: &Polygon| Eye::BOTH.map(|eye| Outline::new(p, eye).doubled_area().abs());
+    let large = |p: &&Polygon| areas(p).iter().all(|&n| n > 80 << 16) && p.eyes == Eyes::Both;
+    for polygon in geometry.polygons.iter().filter(large).filter(|p| !p.guard_band) {
+        let mut frame = Frame::new(SIZE[0], SIZE[1], [0; 3]);
+        let opaque = Polygon { texture: None, ..polygon.clone() };
+        direct.draw(&opaque, Eye::Left, &mut frame);
+        let warped = warping::other_eye(&frame, Eye::Left, &disparity, [0; 3], &mut Unmetered);
+        let corners = Attributes::corners(polygon, Eye::Left);
+        let covered = (0..frame.id.len()).filter(|&n| frame.depth[n] != DEPTH_MAX);
+        for n in covered {
+            let [x, y] = [n % SIZE[0] as usize, n / SIZE[0] as usize].map(|n| n as f64 + 0.5);
+            let depth = frame.depth[n];
+            let [right, down] = disparity.both_at(depth);
+            let expected = by_corners(&corners, [x, y]);
+            // A subpixel is 1/256, depths are whole units.
+            let unit = [0, 1].map(|k| {
+                let near = disparity.both_at(depth.saturating_sub(2))[k];
+                (near - disparity.both_at(depth)[k]).abs()
+            });
+            let what = || format!("{} of {name}, tilt {tilt}, pixel {x}, {y}", kind.name());
+            for (k, found) in [x + right, y + down].into_iter().enumerate() {
+                let off = (found - expected[k]).abs();
+                assert!(off < 2.5 / 256.0 + unit[k], "{}: {found}, not {expected:?}", what());
+            }
+            pixels += 1;
+            let near_a_border = |n: f64| (n - n.round()).abs() < 0.02;
+            if expected.into_iter().any(near_a_border) {
+                continue;
+            }
+            let [x, y] = expected.map(|n| n.floor() as i64);
+            if let Some(at) = warped.frame.index(x, y) {
+                assert!(
+                    warped.sources[at] > 0 && warped.frame.depth[at] != DEPTH_MAX,
+                    "{}",
+                    what()
+                );
+            }
+        }
+    }
+    pixels
+}
+
+#[test]
+fn pixels_go_where_the_other_eye_sees_them_in_every_projection() {
+    for kind in Kind::ALL {
+        let tilts: &[f64] = if kind == Kind::Symmetric { &[0.0] } else { &[0.0, 25.0, -90.0] };
+        for &tilt in tilts {
+            let pixels: usize =
+                ["office-1", "exclusive"].map(|name| check_moves(name, kind, tilt)).iter().sum();
+            println!("{} at {tilt}: {pixels} pixels", kind.name());
+            assert!(pixels > 10_000, "{} at {tilt}: only {pixels} pixels", kind.name());
+        }
+    }
+}
+
+#[test]
+fn the_nearest_is_left_in_every_projection() {
+    for (kind, tilt) in Kind::ALL.map(|kind| (kind, 0.0)).into_iter().chain([
+        (Kind::TwoCentres, 180.0),
+        (Kind::TwoCentres, 30.0),
+        (Kind::Piecewise, -60.0),
+    ]) {
+        let mut scene =
+            open_projected("office-2", Some([200, 150]), None, Some(kind)).expect("it is");
+        scene.rig.head_tilt = tilt;
+        let formats = Formats::new(&Config::DEFAULT);
+        let geometry = scene.geometry(&formats, &Default::default()).expect("it is sound");
+        let options = wheatstone_golden::setup::Options::new(&Config::DEFAULT);
+        let job = Job::of(&geometry, Config::DEFAULT, options, Lookup::Nearest);
+        for (from, source) in Eye::BOTH.into_iter().zip(job.direct()) {
+            let disparity = Disparity::new(&scene.rig, from);
+            let ordered = tilt == 0.0 && kind != Kind::Piecewise;
+            assert_eq!(disparity.is_ordered(), ordered, "{} at {tilt}", kind.name());
+            let warped = warping::other_eye(&source, from, &disparity, [0; 3], &mut Unmetered);
+            let mut nearest = vec![DEPTH_MAX; source.id.len()];
+            for (n, &depth) in source.depth.iter().enumerate() {
+                let [right, down] = disparity.both_rounded(depth);
+                let [x, y] = [n as i64 % 200 + right, n as i64 / 200 + down];
+                if let Some(at) = source.index(x, y) {
+                    nearest[at] = nearest[at].min(depth);
+                }
+            }
+            assert!(warped.frame.depth == nearest, "{} at {tilt} from {from:?}", kind.name());
+        }
+    }
 }
 
 /// A frame of one row: depths in units of a sixteenth of the range, ids as given.

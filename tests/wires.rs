@@ -5,7 +5,7 @@ use fastrand::Rng;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::{Eye, Formats};
 use wheatstone_golden::frame::{Frame, NO_ID};
-use wheatstone_golden::projection::Projection;
+use wheatstone_golden::projection::{Partition, Piecewise, Projection};
 use wheatstone_golden::scene::vector::Vec3;
 use wheatstone_golden::scene::wires::{mesh, wire_frame, Line, THICKEST};
 use wheatstone_golden::scene::{open, Camera, Colours, Material, Mesh, Rig, Scene};
@@ -123,7 +123,7 @@ fn every_row_or_column_has_its_pixels() {
 
 #[test]
 fn lines_are_cut_at_the_near_and_far_planes() {
-    let planes = camera().depth_range();
+    let planes = camera().lenses()[0].depth_range();
     let straight = |z: [f64; 2]| line([[0.0, -30.0, z[0]], [0.0, -30.0, z[1]]]);
     let cut = |z: [f64; 2]| {
         let mesh = mesh(&[straight(z)], &camera());
@@ -157,6 +157,79 @@ fn lines_are_cut_at_the_near_and_far_planes() {
     let half = Line { ends: [[0.0, 0.0, 3.0 * planes[0]], [0.0, 0.0, -planes[0]]], colours };
     let Colours::Vertex(cut) = mesh(&[half], &camera()).colours else { panic!("one a vertex") };
     assert_eq!(cut, [[50, 100, 100], [50, 100, 100], [100, 100, 0], [100, 100, 0]]);
+}
+
+#[test]
+fn lines_have_no_gaps_in_any_partition() {
+    let part = |[near, far]: [f64; 2], [min_distance, max_distance]: [f64; 2]| Partition {
+        near,
+        far,
+        min_distance,
+        max_distance,
+    };
+    // Two that meet, of which the second is flat and moved aside, and one apart from them.
+    let partitions = vec![
+        part([100.0, 200.0], [60.0, 200.0]),
+        part([200.0, 300.0], [150.0, 150.0]),
+        part([350.0, 500.0], [200.0, 400.0]),
+    ];
+    let piecewise = Piecewise { partitions, ..Piecewise::default() };
+    let rig = Rig { projection: Projection::Piecewise(piecewise), ..RIG };
+    let [width, height] = SIZE;
+    let camera = Camera::new(&rig, width, height, &FORMATS);
+    let mut random = Rng::with_seed(4);
+    let (mut pieces, mut checked) = (0, 0);
+    for _ in 0..300 {
+        let ends = [-90.0, 290.0].map(|z| {
+            let mut across = || (random.f64() - 0.5) * 0.5 * (z + 200.0);
+            [across(), across(), z]
+        });
+        let mesh = mesh(&[line(ends)], &camera);
+        let drawn: Vec<[Vec3; 2]> = mesh
+            .positions
+            .chunks(4)
+            .map(|c| [0, 2].map(|k| [0, 1, 2].map(|n| (c[k][n] + c[k + 1][n]) / 2.0)))
+            .collect();
+        pieces += drawn.len();
+        let z: Vec<[f64; 2]> = drawn.iter().map(|ends| ends.map(|p| p[2])).collect();
+        assert_eq!(z, [[-90.0, 0.0], [0.0, 100.0], [150.0, 290.0]]);
+        let scene = Scene {
+            width,
+            height,
+            rig: rig.clone(),
+            meshes: vec![mesh],
+            materials: vec![Material::default()],
+            ..Scene::default()
+        };
+        let [direct, derived] = views(&scene);
+        assert!(direct == derived, "{ends:?}");
+        for (lens, ends) in camera.lenses().iter().zip(&drawn) {
+            let seen = Eye::BOTH.map(|eye| ends.map(|p| lens.pixel(p, eye)));
+            let runs = seen.map(|[a, b]| [b[0] - a[0], b[1] - a[1]].map(f64::abs));
+            for axis in [0, 1] {
+                // Upright, or flat, for both eyes: thin, with a pixel in every row, or column.
+                if runs.iter().any(|run| run[axis] < run[1 - axis]) {
+                    continue;
+                }
+                for (frame, [a, b]) in direct.iter().zip(seen) {
+                    let [from, to] = [a[axis].min(b[axis]), a[axis].max(b[axis])];
+                    let along = along(frame, axis == 1);
+                    for (n, pixels) in along.iter().enumerate() {
+                        let centre = n as f64 + 0.5;
+                        if (from + 0.6..to - 0.6).contains(&centre) {
+                            let part = (centre - a[axis]) / (b[axis] - a[axis]);
+                            let ideal = a[1 - axis] + part * (b[1 - axis] - a[1 - axis]);
+                            let hit =
+                                pixels.iter().any(|&p| (f64::from(p) + 0.5 - ideal).abs() < 0.52);
+                            assert!(hit, "{axis} {n} {ideal}: {pixels:?}");
+                            checked += 1;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(pieces == 900 && checked > 10_000, "{pieces} {checked}");
 }
 
 #[test]

@@ -4,11 +4,12 @@
 //! (a pixel belongs to the polygon where ceil(left - 1/2) <= i < ceil(right - 1/2)). It shares
 //! neither edge functions nor traversal with the pipeline; colour and depth are the same linear functions.
 
+use crate::cost;
 use crate::formats::{Area, Eye, Formats, Quantity, Rgba, DEPTH_MAX, FRACTION_BITS};
 use crate::frame::{Fragment, Frame};
-use crate::setup::{Attributes, Eyes, Linear, Outline, Polygon};
+use crate::setup::{Attributes, Linear, Outline, Polygon};
 use crate::texture::{Lookup, Texture};
-use crate::work::{Meter, Unmetered};
+use crate::work::{Meter, Operations, Unmetered};
 
 /// Draws polygons for one eye after another.
 #[derive(Clone, Copy, Debug)]
@@ -36,15 +37,25 @@ impl Direct<'_> {
         meter: &mut impl Meter,
     ) {
         let outline = Outline::new(polygon, eye);
-        let wanted = matches!(polygon.eyes, Eyes::Both) || polygon.eyes == Eyes::One(eye);
-        if !wanted || outline.doubled_area() == 0 {
+        if !polygon.eyes.contains(eye) {
+            return;
+        }
+        let corners = outline.points().len();
+        meter.note(|work| work.fixed_point += cost::area(corners));
+        if outline.doubled_area() == 0 {
             return;
         }
         let attributes = Attributes::new(polygon, eye, &self.formats);
         let shade = Shade { attributes: &attributes, polygon, direct: self };
         let formats = self.formats;
-        meter.note(|work| work.polygons += 1);
-        scan(&outline, [frame.width, frame.height], &formats, |x, y, mask, centre| {
+        let at_pixel = cost::LINEAR + Operations::comparisons(1) + cost::samples(&formats);
+        let at_pixel = at_pixel + self.colour_cost(polygon);
+        meter.note(|work| {
+            work.polygons += 1;
+            work.fixed_point += cost::attributes(corners, &attributes);
+        });
+        let window = [frame.width, frame.height];
+        scan_metered(&outline, window, &formats, meter, |x, y, mask, centre, meter| {
             let index = y as usize * frame.width as usize + x as usize;
             let fragment = Fragment {
                 rgba: shade.colour(x, y),
@@ -56,10 +67,20 @@ impl Direct<'_> {
             meter.note(|work| {
                 work.pixels_tested += 1;
                 work.depth_tests += 1;
-                work.pixels_written += u64::from(fragment.depth < frame.depth[index]);
+                work.fixed_point += at_pixel;
+                if fragment.depth < frame.depth[index] {
+                    work.pixels_written += 1;
+                    work.fixed_point += cost::BLEND;
+                }
             });
             frame.draw(index, &fragment, &formats);
         });
+    }
+
+    /// What the colour of a pixel of a polygon takes.
+    pub(crate) fn colour_cost(&self, polygon: &Polygon) -> Operations {
+        let texture = polygon.texture.and_then(|n| self.textures.get(n as usize));
+        cost::colour(texture.is_some(), self.lookup)
     }
 }
 
@@ -114,21 +135,33 @@ pub fn scan(
     formats: &Formats,
     mut pixel: impl FnMut(i64, i64, u16, bool),
 ) {
+    let pixel = |x, y, mask, centre, _: &mut Unmetered| pixel(x, y, mask, centre);
+    scan_metered(outline, window, formats, &mut Unmetered, pixel);
+}
+
+/// The same, noting its work; the meter is lent to `pixel`.
+fn scan_metered<M: Meter>(
+    outline: &Outline,
+    window: [u32; 2],
+    formats: &Formats,
+    meter: &mut M,
+    mut pixel: impl FnMut(i64, i64, u16, bool, &mut M),
+) {
     let one = formats.one_pixel();
     let [width, height] = window.map(i64::from);
     let [[_, top], [_, bottom]] = outline.bounds();
     let rows = top.div_euclid(one).max(0)..=bottom.div_euclid(one).min(height - 1);
     for y in rows {
-        let centre = crossing(outline, 2 * y + 1, one, 2);
+        let centre = crossing(outline, 2 * y + 1, one, 2, meter);
         if formats.mask_bits == 1 {
             for x in centre[0].max(0)..centre[1].min(width) {
-                pixel(x, y, 1, true);
+                pixel(x, y, 1, true, meter);
             }
             continue;
         }
         // Four rows of four samples: scan conversion on a grid four times as fine.
         let lines: [[i64; 2]; 4] =
-            [0, 1, 2, 3].map(|l| crossing(outline, 2 * (4 * y + l) + 1, one, 8));
+            [0, 1, 2, 3].map(|l| crossing(outline, 2 * (4 * y + l) + 1, one, 8, meter));
         let touched = lines.iter().filter(|l| l[0] < l[1]);
         let first = touched.clone().map(|l| l[0].div_euclid(4)).min().unwrap_or(0);
         let end = touched.map(|l| (l[1] + 3).div_euclid(4)).max().unwrap_or(0);
@@ -139,7 +172,7 @@ pub fn scan(
                 mask | u16::from(left <= sample && sample < right) << n
             });
             if mask != 0 {
-                pixel(x, y, mask, centre[0] <= x && x < centre[1]);
+                pixel(x, y, mask, centre[0] <= x && x < centre[1], meter);
             }
         }
     }
@@ -147,11 +180,18 @@ pub fn scan(
 
 /// First cell, and the one past the last, whose centre is inside on scan line
 /// y = `line`/`divisions` pixels. Cells are 2/`divisions` pixels wide.
-fn crossing(outline: &Outline, line: i64, one: i64, divisions: i64) -> [i64; 2] {
+fn crossing(
+    outline: &Outline,
+    line: i64,
+    one: i64,
+    divisions: i64,
+    meter: &mut impl Meter,
+) -> [i64; 2] {
     let points = outline.points();
     // Scaled by `divisions`, the line has an integer y and a cell is 2·one wide.
     let y = line * one;
     let mut cells = [i64::MAX, i64::MIN];
+    let mut crossed = 0;
     for (k, from) in points.iter().enumerate() {
         let to = points[(k + 1) % points.len()];
         let [from, to] = [*from, to].map(|p| p.map(|c| c * divisions));
@@ -167,7 +207,9 @@ fn crossing(outline: &Outline, line: i64, one: i64, divisions: i64) -> [i64; 2] 
         let denominator = 2 * i128::from(one) * rise;
         let cell = -(-numerator).div_euclid(denominator);
         cells = [cells[0].min(cell as i64), cells[1].max(cell as i64)];
+        crossed += 1;
     }
+    meter.note(|work| work.fixed_point += cost::crossings(points.len(), crossed));
     if cells[0] > cells[1] {
         [0, 0]
     } else {

@@ -21,7 +21,8 @@ use crate::work::Real;
 pub struct Plane<T>(pub [T; 4]);
 
 impl<T: Real> Plane<T> {
-    /// A·x + B·y + C·z + D: positive before the front of the plane.
+    /// A·x + B·y + C·z + D: positive before the front of the plane (Adelson et al. 1991, "Stereoscopic
+    /// Back-Face Removal").
     #[inline]
     pub fn at(&self, [x, y, z]: [T; 3]) -> T {
         let Plane([a, b, c, d]) = *self;
@@ -51,7 +52,8 @@ impl<T: Real> Viewer<T> {
         Viewer { right, separation: T::of(separation) }
     }
 
-    /// How the eyes see a plane.
+    /// How the eyes see a plane: S at the right eye, L = S − A·e at the left one (the same section; errata:
+    /// left data).
     #[inline]
     pub fn facing(&self, plane: &Plane<T>) -> Facing<T> {
         let right = plane.at(self.right);
@@ -59,7 +61,7 @@ impl<T: Real> Viewer<T> {
     }
 
     /// Whether the left and the right eye see the front, by the publication's decisions as they
-    /// should read: two or three comparisons. [`Facing::front`] takes two and branches nowhere.
+    /// should read (errata: back faces): two or three comparisons. [`Facing::front`] takes two and branches nowhere.
     pub fn decide(&self, plane: &Plane<T>) -> [bool; 2] {
         let zero = T::of(0.0);
         let right = plane.at(self.right);
@@ -103,7 +105,7 @@ impl<T: Real> Facing<T> {
         }
     }
 
-    /// The primary eye, which sees the polygon wider, and G1, from 0 to 1; none if the eyes see
+    /// The primary eye, which sees the polygon wider, and G1 (McCann & Lister, equation 5), from 0 to 1; none if the eyes see
     /// different sides, or one of them sees the edge.
     pub fn scale(&self) -> Option<(Eye, T)> {
         let zero = T::of(0.0);

@@ -13,6 +13,8 @@ extern crate alloc;
 pub mod clipping;
 pub mod config;
 #[cfg(feature = "std")]
+pub mod cost;
+#[cfg(feature = "std")]
 pub mod direct;
 #[cfg(feature = "std")]
 pub mod document;

@@ -1,10 +1,12 @@
 //! How far a derived pair of views is from direct rendering.
 
-use crate::formats::{Eye, Rgba};
+use crate::direct::depth_at;
+use crate::formats::{Eye, Formats, Rgba};
 use crate::frame::{Frame, NO_ID};
 use crate::picture::{colour_picture, psnr};
-use crate::setup::Placement;
-use crate::stereo::Job;
+use crate::setup::{Attributes, Linear, Outline, Placement};
+use crate::stereo::{pieces, Job};
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 /// One view, derived, against the same view rendered directly.
@@ -18,6 +20,9 @@ pub struct Quality {
     pub colours: usize,
     /// Pixels of another polygon.
     pub ids: usize,
+    /// Those of them at which the other polygon is too and has the same depth, to within a unit of
+    /// depth: what is seen there is a matter of rounding.
+    pub ties: usize,
     /// Pixels of no polygon where there should be one.
     pub gaps: usize,
 }
@@ -50,6 +55,7 @@ impl Quality {
             pixels: seen.len(),
             colours: count(&|n| colour(n) != direct.colour[n]),
             ids: count(&|n| id(n) != direct.id[n]),
+            ties: ties(job, eye, direct, id),
             gaps: count(&|n| id(n) == NO_ID && direct.id[n] != NO_ID),
         }
     }
@@ -62,6 +68,7 @@ impl Quality {
             pixels: a.pixels + b.pixels,
             colours: a.colours + b.colours,
             ids: a.ids + b.ids,
+            ties: a.ties + b.ties,
             gaps: a.gaps + b.gaps,
         }
     }
@@ -74,6 +81,32 @@ impl Quality {
             "identical".into()
         }
     }
+}
+
+/// Pixels where the polygon `shown` is not the one that direct rendering shows, but covers the pixel
+/// and is as deep there to within one unit, by which planes are rounded.
+fn ties(job: &Job, eye: Eye, direct: &Frame, shown: impl Fn(usize) -> u32) -> usize {
+    let formats = Formats::new(&job.config);
+    let differs = |n: &usize| ![NO_ID, direct.id[*n]].contains(&shown(*n));
+    let wrong: Vec<usize> = (0..direct.id.len()).filter(differs).collect();
+    let wanted: HashSet<u32> = wrong.iter().map(|&n| shown(n)).collect();
+    let mut planes: HashMap<u32, Vec<(Outline, Linear)>> = HashMap::new();
+    for polygon in pieces(job.polygons).filter(|p| wanted.contains(&p.id)) {
+        let outline = Outline::new(&polygon, eye);
+        if polygon.eyes.contains(eye) && outline.doubled_area() != 0 {
+            let plane = Attributes::depth(&polygon, eye, &formats);
+            planes.entry(polygon.id).or_default().push((outline, plane));
+        }
+    }
+    let ties = |n: &&usize| {
+        let [x, y] = [**n as u32 % direct.width, **n as u32 / direct.width].map(i64::from);
+        let here = planes.get(&shown(**n)).into_iter().flatten();
+        here.into_iter().any(|(outline, plane)| {
+            outline.edges(&formats).all(|edge| edge.value().at(x, y) >= 0)
+                && depth_at(plane, x, y).abs_diff(direct.depth[**n]) <= 1
+        })
+    };
+    wrong.iter().filter(ties).count()
 }
 
 impl fmt::Display for Quality {

@@ -24,6 +24,21 @@ pub struct Operations {
 }
 
 impl Operations {
+    /// Those of some code that are noted rather than counted by [`Counted`] numbers.
+    pub const fn new(
+        additions: u64,
+        multiplications: u64,
+        divisions: u64,
+        comparisons: u64,
+    ) -> Operations {
+        Operations { additions, multiplications, divisions, comparisons }
+    }
+
+    /// So many comparisons and nothing else.
+    pub const fn comparisons(comparisons: u64) -> Operations {
+        Operations::new(0, 0, 0, comparisons)
+    }
+
     /// Additions, multiplications and divisions.
     pub fn arithmetic(&self) -> u64 {
         self.additions + self.multiplications + self.divisions
@@ -43,6 +58,25 @@ impl Add for Operations {
             multiplications: self.multiplications + other.multiplications,
             divisions: self.divisions + other.divisions,
             comparisons: self.comparisons + other.comparisons,
+        }
+    }
+}
+
+impl AddAssign for Operations {
+    fn add_assign(&mut self, other: Operations) {
+        *self = *self + other;
+    }
+}
+
+impl Mul<u64> for Operations {
+    type Output = Operations;
+    /// The same done so many times.
+    fn mul(self, times: u64) -> Operations {
+        Operations {
+            additions: self.additions * times,
+            multiplications: self.multiplications * times,
+            divisions: self.divisions * times,
+            comparisons: self.comparisons * times,
         }
     }
 }
@@ -199,8 +233,10 @@ impl Meter for Unmetered {
 /// Work of an algorithm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Work {
-    /// Arithmetic.
+    /// Arithmetic of reals.
     pub operations: Operations,
+    /// Arithmetic of coordinates, depths and colours in fixed point.
+    pub fixed_point: Operations,
     /// Polygons or pieces of polygons scan-converted, counted for each view.
     pub polygons: u64,
     /// Values interpolated along edges and spans.
@@ -231,6 +267,7 @@ impl Add for Work {
     fn add(self, other: Work) -> Work {
         Work {
             operations: self.operations + other.operations,
+            fixed_point: self.fixed_point + other.fixed_point,
             polygons: self.polygons + other.polygons,
             interpolations: self.interpolations + other.interpolations,
             edge_updates: self.edge_updates + other.edge_updates,
@@ -249,17 +286,23 @@ impl Work {
         self.pixels_tested.max(self.depth_tests).max(self.pixels_written)
     }
 
+    /// Arithmetic of reals and in fixed point.
+    pub fn arithmetic(&self) -> Operations {
+        self.operations + self.fixed_point
+    }
+
     /// What this is more than other work of the same kind; 0 where it is less.
     pub fn beyond(&self, other: &Work) -> Work {
         let less = |own: u64, other: u64| own.saturating_sub(other);
-        let (own, done) = (&self.operations, &other.operations);
+        let operations = |own: &Operations, done: &Operations| Operations {
+            additions: less(own.additions, done.additions),
+            multiplications: less(own.multiplications, done.multiplications),
+            divisions: less(own.divisions, done.divisions),
+            comparisons: less(own.comparisons, done.comparisons),
+        };
         Work {
-            operations: Operations {
-                additions: less(own.additions, done.additions),
-                multiplications: less(own.multiplications, done.multiplications),
-                divisions: less(own.divisions, done.divisions),
-                comparisons: less(own.comparisons, done.comparisons),
-            },
+            operations: operations(&self.operations, &other.operations),
+            fixed_point: operations(&self.fixed_point, &other.fixed_point),
             polygons: less(self.polygons, other.polygons),
             interpolations: less(self.interpolations, other.interpolations),
             edge_updates: less(self.edge_updates, other.edge_updates),

@@ -5,6 +5,7 @@
 //! z = −D. A point (x, y, z) is seen by the eye at s at
 //! x' = s + (x − s)·D/(−z), y' = y·D/(−z); its parallax is e(1 − D/(−z)).
 
+use crate::errata::{DEPTH, TRIANGLES, WHICH_EYE};
 use crate::prepared::Prepared;
 use crate::{Check, Experiment, Report, Row, StudyError, Table};
 use std::path::{Path, PathBuf};
@@ -21,11 +22,6 @@ pub const EXPERIMENT: Experiment = Experiment {
     description: "Duvanenko & Robbins' height field: counts, eyes and screen in dots, projections",
     run,
 };
-
-const CELLS: &str = "200 samples in a row have 199 cells between them";
-const EYES: &str =
-    "Listing One moves the scene to the left for the left eye: it is seen by the right";
-const DEPTH: &str = "Listing One's matrix makes z/w one constant; 1/(-z) is kept here";
 
 fn run(out: &Path) -> Result<Report, StudyError> {
     let grid = height_field::atoms();
@@ -82,22 +78,22 @@ fn counts(grid: &HeightGrid) -> Table {
             count("samples", grid.heights().len() as f64).printed(40_000.0),
             count("triangles", grid.mesh().triangles.len() as f64)
                 .printed(80_000.0)
-                .corrected(79_202.0, CELLS),
+                .corrected(79_202.0, TRIANGLES),
             count("transformation, multiplications", transform.multiplications as f64)
                 .printed(640_000.0),
             count("transformation, additions", transform.additions as f64).printed(480_000.0),
             count("normals by cross products, subtractions", general.additions as f64)
                 .printed(720_000.0)
-                .corrected(9.0 * 79_202.0, CELLS),
+                .corrected(9.0 * 79_202.0, TRIANGLES),
             count("normals by cross products, multiplications", general.multiplications as f64)
                 .printed(480_000.0)
-                .corrected(6.0 * 79_202.0, CELLS),
+                .corrected(6.0 * 79_202.0, TRIANGLES),
             count("normals of the grid, subtractions", short.additions as f64)
                 .printed(200_000.0)
-                .corrected(5.0 * 39_601.0, CELLS),
+                .corrected(5.0 * 39_601.0, TRIANGLES),
             count("normals of the grid, multiplications", short.multiplications as f64)
                 .printed(160_000.0)
-                .corrected(4.0 * 39_601.0, CELLS),
+                .corrected(4.0 * 39_601.0, TRIANGLES),
             ratio("subtractions, ratio", general.additions, short.additions).printed(3.6),
             ratio("multiplications, ratio", general.multiplications, short.multiplications)
                 .printed(3.0),
@@ -185,7 +181,7 @@ fn projections(prepared: &Prepared) -> Table {
             pixels("parallax e(1 - D/(-z)), largest difference", parallax),
             pixels("Listing One's left matrix for the right eye, and the other way", swapped)
                 .expected(0.0)
-                .because(EYES),
+                .because(WHICH_EYE),
             Row::new("range of Listing One's depths", most - least, 9, Check::AtMost(1e-9))
                 .because(DEPTH),
             Row::new("different depths here", kept.len() as f64, 0, Check::AtLeast(20_000.0)),

@@ -5,6 +5,7 @@
 
 pub mod adelson;
 pub mod compare;
+mod errata;
 pub mod filter;
 pub mod height_field;
 pub mod nasa;
@@ -17,6 +18,7 @@ pub mod report;
 pub mod reproduce;
 pub mod timing;
 pub mod village;
+pub mod volume;
 
 pub use report::{Check, Report, Row, Table, Verdict};
 

@@ -5,6 +5,7 @@
 //! sight from both eyes through a point's two images meet. Distances in the scene are in feet, on the
 //! viewer's side in inches.
 
+use crate::errata::{LINEAR, ROW_4, SIMILAR_TRIANGLES, SUBTRACT, WHOLE_DEGREES, WIDTH};
 use crate::plot::{self, Series};
 use crate::{Check, Experiment, Report, Row, StudyError, Table};
 use std::path::{Path, PathBuf};
@@ -33,14 +34,6 @@ const MAXD: f64 = 43.0;
 const FCP: f64 = 6000.0;
 /// Pixels of the views across and down in which distances are measured.
 const PIXELS: [u32; 2] = [640, 480];
-
-const WIDTH: &str =
-    "the table follows from its field of 40 degrees, not from a screen 12.4 in wide";
-const WHOLE: &str = "printed to whole degrees";
-const SIGN: &str = "row 4 of the matrix has plus signs; the scan shows minus";
-const SUBTRACT: &str = "with SI = SD the denominator is d' + MAXD - SD, not + SD";
-const TRIANGLES: &str = "the similar triangles give NCP/POT, not NCP/FCP";
-const LINEAR: &str = "1/d is affine in 1/d'; d is linear only where FCP MIND = NCP MAXD";
 
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment {
@@ -98,6 +91,11 @@ fn fields_of_view() -> Table {
             "screen" => SD,
             _ => f64::INFINITY,
         };
+        if place == "nearest" {
+            let expected = if clipping == Clipping::Symmetric { 4.192 } else { 2.909 };
+            let what = format!("{clipping:?}, nearest distance");
+            rows.push(Row::new(what, distance, 3, Check::Digits).expected(expected).unit("in"));
+        }
         let seen = screen.field_of_view(clipping, distance);
         let parts = [
             ("left", seen.left),
@@ -119,7 +117,7 @@ fn cell_of(what: &str, here: f64, printed: f64) -> Row {
     let digits = if printed == 6.65 { 2 } else { 1 };
     let row = Row::new(what, here, digits, Check::Digits).printed(printed).unit("deg");
     match exact.into_iter().find(|(whole, _)| *whole == printed) {
-        Some((_, corrected)) => row.corrected(corrected, WHOLE),
+        Some((_, corrected)) => row.corrected(corrected, WHOLE_DEGREES),
         None => row,
     }
 }
@@ -229,25 +227,16 @@ fn matrices(title: &str, rig: &Rig) -> Table {
         }
     }
     let matrix = projection.matrix(Eye::Left);
-    let mut misprinted = matrix;
-    misprinted[3] = matrix[3].map(|n| -n);
-    let depth = |distance: f64, matrix| transform([0.0, 0.0, -distance], matrix)[2];
-    let across = |matrix| transform([0.0, 0.0, -range.near], matrix)[0];
+    let seen = |distance: f64| transform([0.0, 0.0, -distance], &matrix);
     let near = viewer.disparity(map.perceived(range.near)) / width;
     let row = |what: &str, here| Row::new(what, here, 4, Check::Digits);
     let rows = vec![
         Row::new("matrix - product of its steps, largest", worst[0], 16, Check::AtMost(1e-12)),
         Row::new("matrix - point formulas, largest", worst[1], 16, Check::AtMost(1e-12)),
         Row::new("matrix - camera, largest", worst[2], 16, Check::AtMost(1e-9)).unit("px"),
-        row("z at NCP", depth(range.near, &matrix))
-            .printed(depth(range.near, &misprinted))
-            .corrected(-1.0, SIGN),
-        row("z at FCP", depth(range.far, &matrix))
-            .printed(depth(range.far, &misprinted))
-            .corrected(1.0, SIGN),
-        row("x at NCP, left eye", across(&matrix))
-            .printed(across(&misprinted))
-            .corrected(-near, SIGN),
+        row("z at NCP", seen(range.near)[2]).corrected(-1.0, ROW_4),
+        row("z at FCP", seen(range.far)[2]).corrected(1.0, ROW_4),
+        row("x at NCP, left eye", seen(range.near)[0]).corrected(-near, ROW_4),
     ];
     Table { title: title.into(), rows }
 }
@@ -267,27 +256,23 @@ fn asymptotic_map() -> Table {
         Observer::new(Rig { far: None, ..self::rig(Projection::Asymptotic(parameters)) })
     };
     let row = |what: &str, here| Row::new(what, here, 4, Check::Digits).unit("in");
-    // The publication's own formulas give what is printed.
+    // What the publication's formulas give; it prints no distances.
     let ncp = (SI * MIND * MAXD - SI * SD * MIND) / (SD * MAXD - SD * MIND);
     let map = |d: f64| d * SD * MAXD / (d * SD + SI * MAXD - SI * SD);
     let pot =
         observer.viewer.projection_offset(&observer.rig.projection.ranges(&observer.rig)[0].map);
     let triangle = SD / (IPD / 2.0 * (SD / MIND - SD / MAXD));
     let rows = vec![
-        row("MIND: d at NCP", observer.seen(near)).printed(MIND),
-        row("SD: d at SI", observer.seen(SI)).printed(SD),
-        row("MAXD: d at infinity", observer.seen(1e12)).printed(MAXD),
-        row("d at 100 ft", observer.seen(100.0)).printed(map(100.0)),
-        row("d at 600 ft", observer.seen(600.0)).printed(map(600.0)),
-        row("NCP", near).printed(ncp).unit("ft"),
+        row("MIND: d at NCP", observer.seen(near)).expected(MIND),
+        row("SD: d at SI", observer.seen(SI)).expected(SD),
+        row("MAXD: d at infinity", observer.seen(1e12)).expected(MAXD),
+        row("d at 100 ft", observer.seen(100.0)).expected(map(100.0)),
+        row("d at 600 ft", observer.seen(600.0)).expected(map(600.0)),
+        row("NCP", near).expected(ncp).unit("ft"),
         row("SI = SD: d at 100 in", of(MAXD).seen(100.0))
-            .printed(100.0 * MAXD / (100.0 + MAXD + SD))
             .corrected(100.0 * MAXD / (100.0 + MAXD - SD), SUBTRACT),
-        row("SI = SD, no MAXD: d at 100 in", of(f64::INFINITY).seen(100.0)).printed(100.0),
-        row("SD/(VPT - y) = NCP/POT", near / pot)
-            .printed(ncp / FCP)
-            .corrected(triangle, TRIANGLES)
-            .unit(""),
+        row("SI = SD, no MAXD: d at 100 in", of(f64::INFINITY).seen(100.0)).expected(100.0),
+        row("SD/(VPT - y) = NCP/POT", near / pot).corrected(triangle, SIMILAR_TRIANGLES).unit(""),
     ];
     let title = format!("Appendix A: distance map, SI {SI} ft, MIND {MIND} in, MAXD {MAXD} in");
     Table { title, rows }
@@ -295,7 +280,12 @@ fn asymptotic_map() -> Table {
 
 fn figure_7() -> Table {
     let observer = Observer::new(piecewise());
-    let mut rows = Vec::new();
+    let flat = |partition: &&Partition| partition.min_distance == partition.max_distance;
+    let count = |what: &str, n: usize| Row::new(what, n as f64, 0, Check::Digits);
+    let mut rows = vec![
+        count("partitions", observer.camera.lenses().len()).expected(4.0),
+        count("flat partitions", partitions().iter().filter(flat).count()).expected(2.0),
+    ];
     for (n, (partition, lens)) in partitions().iter().zip(observer.camera.lenses()).enumerate() {
         let Partition { near, far, min_distance, max_distance } = *partition;
         let seen = |distance: f64| {
@@ -304,7 +294,7 @@ fn figure_7() -> Table {
         };
         let row = |what: String, here, expected| {
             let row = Row::new(format!("partition {}: {what}", n + 1), here, 4, Check::Digits);
-            row.printed(expected).unit("in")
+            row.expected(expected).unit("in")
         };
         rows.push(row(format!("d at NCP, {near} ft"), seen(near), min_distance));
         rows.push(row(format!("d at FCP, {far} ft"), seen(far), max_distance));
@@ -313,9 +303,8 @@ fn figure_7() -> Table {
             let inverse = 1.0 / middle;
             let part = (1.0 / near - inverse) / (1.0 / near - 1.0 / far);
             let exact = 1.0 / ((1.0 - part) / min_distance + part / max_distance);
-            let linear = (min_distance + max_distance) / 2.0;
-            let half_way = row(format!("d at {middle} ft"), seen(middle), linear);
-            rows.push(half_way.corrected(exact, LINEAR));
+            let half_way = row(format!("d at {middle} ft"), seen(middle), exact);
+            rows.push(half_way.because(LINEAR));
         }
     }
     let proportional =
@@ -327,7 +316,7 @@ fn figure_7() -> Table {
     };
     let linear = Observer::new(rig(Projection::Piecewise(parameters)));
     let row = Row::new("FCP MIND = NCP MAXD: d at 75 ft", linear.seen(75.0), 4, Check::Digits);
-    rows.push(row.printed(1.5 * SD).unit("in"));
+    rows.push(row.expected(1.5 * SD).unit("in"));
     Table { title: "Figure 7: four partitions, two of them flat".into(), rows }
 }
 
@@ -385,21 +374,4 @@ fn picture(folder: &Path, kind: Kind) -> Result<PathBuf, StudyError> {
     let file = folder.join(format!("room_{}.png", kind.name()));
     Composite::Parallel.write(&file, &Views { left: &left, right: &right }, None)?;
     Ok(file)
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_figure_holds() {
-        let folder = std::env::temp_dir().join(format!("wheatstone-nasa-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        let report = super::run(&folder).unwrap();
-        for table in &report.tables {
-            println!("{table}");
-        }
-        let differing: Vec<&str> = report.differing().map(|row| row.what.as_str()).collect();
-        assert!(differing.is_empty(), "{differing:?}");
-        assert!(report.files.iter().all(|file| file.exists()) && report.files.len() == 9);
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
 }

@@ -37,15 +37,22 @@ pub struct Row {
     pub unit: String,
     /// As the publication prints it.
     pub printed: Option<f64>,
+    /// The printed figure is an upper bound, as in "<1 %".
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub printed_less: bool,
     /// As it should have printed it; the printed one if there is no erratum.
     pub corrected: Option<f64>,
-    /// As it comes out here.
+    /// As it comes out here; not a number where it is quoted only.
     pub here: f64,
+    /// What comes out here is less than `here`, by how much is not known.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub here_less: bool,
     /// Digits after the point to show.
     pub digits: usize,
     /// What `here` is held against.
     pub check: Check,
-    /// Why `corrected` differs from `printed`.
+    /// Why `corrected` differs from `printed`: the erratum's short name in `docs/errata.md`, a colon
+    /// and what it says.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub erratum: Option<&'static str>,
 }
@@ -85,18 +92,35 @@ impl Row {
             what: what.into(),
             unit: String::new(),
             printed: None,
+            printed_less: false,
             corrected: None,
             here,
+            here_less: false,
             digits,
             check,
             erratum: None,
         }
     }
 
+    /// A printed figure that is not computed, but others are with it.
+    pub fn quoted(what: impl Into<String>, printed: f64) -> Row {
+        Row::new(what, f64::NAN, 0, Check::Trend).printed(printed)
+    }
+
     /// A printed figure without an erratum.
     pub fn printed(mut self, printed: f64) -> Row {
         (self.printed, self.corrected) = (Some(printed), Some(printed));
         self
+    }
+
+    /// A printed upper bound, as "<1".
+    pub fn printed_less(self, bound: f64) -> Row {
+        Row { printed_less: true, ..self.printed(bound) }
+    }
+
+    /// Says whether `here` is an upper bound.
+    pub fn here_less(self, less: bool) -> Row {
+        Row { here_less: less, ..self }
     }
 
     /// A figure that is not printed, but follows from what is.
@@ -128,7 +152,9 @@ impl Row {
         let holds = |holds| if holds { Verdict::Holds } else { Verdict::Differs };
         let reference = self.corrected.or(self.printed).unwrap_or(f64::NAN);
         match self.check {
-            Check::Digits => holds(self.text(Some(self.here)) == self.text(Some(reference))),
+            Check::Digits => holds(
+                !self.here.is_nan() && self.text(Some(self.here)) == self.text(Some(reference)),
+            ),
             Check::Within(part) => holds((self.here - reference).abs() <= part * reference.abs()),
             Check::AtLeast(least) => holds(self.here >= least),
             Check::AtMost(most) => holds(self.here <= most),
@@ -137,7 +163,12 @@ impl Row {
     }
 
     fn text(&self, value: Option<f64>) -> String {
+        let value = value.filter(|value| !value.is_nan());
         value.map(|value| format!("{value:.*}", self.digits)).unwrap_or_default()
+    }
+
+    fn corrected_less(&self) -> bool {
+        self.printed_less && self.corrected == self.printed
     }
 
     fn held_to(&self) -> String {
@@ -182,6 +213,15 @@ impl Report {
     }
 }
 
+/// What stands before a figure that is an upper bound.
+fn less(bound: bool) -> &'static str {
+    if bound {
+        "<"
+    } else {
+        ""
+    }
+}
+
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut table = comfy_table::Table::new();
@@ -201,13 +241,14 @@ impl fmt::Display for Table {
             let verdict = match row.verdict() {
                 Verdict::Holds => "holds",
                 Verdict::Differs => "DIFFERS",
+                Verdict::Trend if row.here.is_nan() => "quoted",
                 Verdict::Trend => "trend",
             };
             table.add_row([
                 row.what.clone(),
-                row.text(row.printed),
-                format!("{}{mark}", row.text(row.corrected)),
-                row.text(Some(row.here)),
+                format!("{}{}", less(row.printed_less), row.text(row.printed)),
+                format!("{}{}{mark}", less(row.corrected_less()), row.text(row.corrected)),
+                format!("{}{}", less(row.here_less), row.text(Some(row.here))),
                 row.unit.clone(),
                 row.held_to(),
                 verdict.into(),
@@ -239,6 +280,9 @@ mod tests {
         assert_eq!(row(2.7, Check::AtLeast(2.7)), Verdict::Holds);
         assert_eq!(row(2.7, Check::AtMost(2.6)), Verdict::Differs);
         assert_eq!(row(9.0, Check::Trend), Verdict::Trend);
+        let less = Row::new("x", 3.0, 0, Check::Trend).printed_less(1.0).here_less(true);
+        let text = Table { title: "t".into(), rows: vec![less] }.to_string();
+        assert!(text.matches("<1").count() == 2 && text.contains("<3"), "{text}");
         let wrong = Row::new("x", 1.5, 2, Check::Digits).printed(1.67).corrected(1.5, "1 + II");
         assert_eq!(wrong.verdict(), Verdict::Holds);
         let table = Table { title: "t".into(), rows: vec![wrong] }.to_string();

@@ -1,7 +1,13 @@
 //! Time as a ratio: two pieces of code side by side in one run.
 
+use crate::Check;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
+
+/// What a form that is never slower by more than 2 % reaches at least.
+const NOT_SLOWER: f64 = 0.981;
+/// Part of the work from which saving it must show in time.
+const CONSIDERABLE: f64 = 0.1;
 
 /// Time of one piece of code beside that of another.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +20,45 @@ pub struct Ratio {
     pub second: Duration,
 }
 
+impl Ratio {
+    /// The shortest run of the first by that of the second. Of many short runs some are undisturbed even
+    /// on a machine that does other things at the same time, so this is what speed-ups are held to.
+    pub fn of_shortest(&self) -> f64 {
+        self.first.as_secs_f64() / self.second.as_secs_f64()
+    }
+}
+
+/// What a speed-up is held to, in a release build: range checks of a debug build are no part of the
+/// algorithms.
+pub fn at_least(least: f64) -> Check {
+    if cfg!(debug_assertions) {
+        Check::Trend
+    } else {
+        Check::AtLeast(least)
+    }
+}
+
+/// The same of a ratio of times that is the better the smaller it is.
+pub fn at_most(most: f64) -> Check {
+    if cfg!(debug_assertions) {
+        Check::Trend
+    } else {
+        Check::AtMost(most)
+    }
+}
+
+/// The least speed-up of a form that saves this part of the work: never slower by more than 2 %, and
+/// faster where it saves more than 10 %.
+pub fn least_speed_up(saving: f64) -> f64 {
+    if saving > CONSIDERABLE {
+        1.0
+    } else {
+        NOT_SLOWER
+    }
+}
+
 /// Runs two pieces of code in turns, `rounds` times each, and compares their times. Neighbouring
-/// runs share what else the machine does, and the median drops the rounds that were disturbed.
+/// runs share what else the machine does.
 pub fn ratio<A, B>(
     rounds: usize,
     mut first: impl FnMut() -> A,
@@ -26,7 +69,7 @@ pub fn ratio<A, B>(
     time(&mut second);
     let mut ratios = Vec::new();
     let mut least = [Duration::MAX; 2];
-    for round in 0..rounds.max(1) {
+    for round in 0..rounds_in_this_build(rounds) {
         let times = if round % 2 == 0 {
             let one = time(&mut first);
             [one, time(&mut second)]
@@ -41,9 +84,18 @@ pub fn ratio<A, B>(
     Ratio { median: ratios[ratios.len() / 2], first: least[0], second: least[1] }
 }
 
+/// Times of a debug build are not judged: one round shows that it can be measured.
+fn rounds_in_this_build(rounds: usize) -> usize {
+    if cfg!(debug_assertions) {
+        1
+    } else {
+        rounds.max(1)
+    }
+}
+
 /// The shortest of some runs of a piece of code.
 pub fn shortest<T>(runs: usize, mut code: impl FnMut() -> T) -> Duration {
-    (0..runs).map(|_| time(&mut code)).min().unwrap_or_default()
+    (0..rounds_in_this_build(runs)).map(|_| time(&mut code)).min().unwrap_or_default()
 }
 
 fn time<T>(code: &mut impl FnMut() -> T) -> Duration {

@@ -1,4 +1,5 @@
-//! Convex polygons cut by a half space, whatever their corners carry.
+//! Convex polygons cut by a half space, whatever their corners carry. No publication's: the guard band's
+//! and the near plane's clipping.
 
 use crate::work::Real;
 

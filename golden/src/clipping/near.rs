@@ -1,4 +1,5 @@
-//! Lines and polygons cut by the near plane z = `near`, before they are projected.
+//! Lines and polygons cut by the near plane z = `near`, before they are projected: a further boundary for
+//! the parameter of Liang and Barsky 1984. Adelson et al. clip in two dimensions only.
 //!
 //! The plane is parallel to the screen and common to both eyes: one cut serves both views.
 

@@ -6,7 +6,7 @@
 //! a corner of the window, where it goes from one region beside the window to the next.
 //!
 //! The strip in y is common to the views: 6 intersections instead of twice 4. Their order is not,
-//! since it depends on x (Adelson et al. 1991, "Polygon Clipping").
+//! since it depends on x (Adelson et al. 1991, "Line and Polygon Clipping").
 
 use super::{Point, Window};
 use crate::work::{Meter, Real};

@@ -40,7 +40,7 @@ impl FieldOfView {
 }
 
 impl Screen {
-    /// The field of view at a perceived distance, which may be infinite.
+    /// The field of view at a perceived distance, which may be infinite (NASA 1992, table I).
     ///
     /// An eye at ∓IPD/2 looks through point X of the screen at the angle whose tangent, seen from the
     /// middle, is (X ± IPD/2)/SD ∓ IPD/(2d). Nearer than [`Screen::nearest`] the eyes' fields part, and
@@ -63,7 +63,8 @@ impl Screen {
         }
     }
 
-    /// The nearest distance at which both eyes see any point together.
+    /// The nearest distance at which both eyes see any point together ("nearest" of NASA 1992, table I):
+    /// a·SD/(h + a) with asymmetric, a·SD/(h − a) with symmetric clipping, a = IPD/2, h = W/2.
     pub fn nearest(&self, clipping: Clipping) -> f64 {
         let (half, a) = (self.width / 2.0, self.eye_distance / 2.0);
         match clipping {

@@ -1,5 +1,5 @@
 //! From distances in the scene to the distances at which they are perceived, and what moves the
-//! views so.
+//! views so: NASA 1992, appendix A "Overall geometry and distance mapping" and appendix B.
 
 /// The map of a projection: 1/d = `slope`/d' + `intercept`, where d' is a distance in the scene and
 /// d the distance at which the viewer perceives it.
@@ -37,12 +37,13 @@ impl DistanceMap {
         DistanceMap { slope, intercept: 1.0 / max_distance - slope / far }
     }
 
-    /// Where a scene distance is perceived; infinite distances are legal.
+    /// Where a scene distance is perceived: d of d' (NASA 1992, the last equations of appendices A and B);
+    /// infinite distances are legal.
     pub fn perceived(&self, scene: f64) -> f64 {
         1.0 / (self.slope / scene + self.intercept)
     }
 
-    /// The scene distance that is perceived at this distance; none is where `slope` is 0.
+    /// The scene distance that is perceived at this distance, d' of d (as above; with MIND: NCP of appendix A); none is where `slope` is 0.
     pub fn scene(&self, perceived: f64) -> f64 {
         self.slope / (1.0 / perceived - self.intercept)
     }

@@ -28,12 +28,14 @@ pub struct ProjectionMatrix {
 }
 
 impl ProjectionMatrix {
-    /// ZCT = −(FCP + NCP)/(2 FCP NCP): minus the mean of the planes' inverse distances.
+    /// ZCT = −(FCP + NCP)/(2 FCP NCP): minus the mean of the planes' inverse distances (NASA 1992,
+    /// appendix A, "z-clip translation").
     pub fn z_clip_translation(&self) -> f64 {
         -(self.far + self.near) / (2.0 * self.far * self.near)
     }
 
-    /// ZCS = −2 FCP NCP/(FCP − NCP): makes the inverse distances run from −1 to 1.
+    /// ZCS = −2 FCP NCP/(FCP − NCP): makes the inverse distances run from −1 to 1 (NASA 1992, appendix A,
+    /// "z-clip scale").
     pub fn z_clip_scale(&self) -> f64 {
         -2.0 * self.far * self.near / (self.far - self.near)
     }
@@ -68,7 +70,7 @@ impl ProjectionMatrix {
         ]
     }
 
-    /// The matrix (A9, B9).
+    /// The matrix (NASA 1992, A9 and B9; errata: row 4).
     pub fn matrix(&self, eye: Eye) -> Matrix {
         let [pot, vpt] = self.offsets(eye);
         let sd = self.viewer.screen_distance;

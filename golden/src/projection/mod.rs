@@ -23,11 +23,11 @@ pub use matrix::{multiply, transform, Matrix, ProjectionMatrix};
 pub use parameters::{Asymptotic, Partition, Piecewise};
 
 use crate::scene::{Rig, RigError};
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 
 /// Names of the projections.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kind {
     /// [`Projection::TwoCentres`].
     #[default]
@@ -55,16 +55,13 @@ impl Kind {
         Kind::Symmetric,
     ];
 
+    /// Their names, in the same order.
+    const NAMES: [&str; 6] =
+        ["two-centres", "shear", "translate", "asymptotic", "piecewise", "symmetric"];
+
     /// Name on the command line and in rig files.
     pub fn name(self) -> &'static str {
-        match self {
-            Kind::TwoCentres => "two-centres",
-            Kind::Shear => "shear",
-            Kind::Translate => "translate",
-            Kind::Asymptotic => "asymptotic",
-            Kind::Piecewise => "piecewise",
-            Kind::Symmetric => "symmetric",
-        }
+        Kind::NAMES[self as usize]
     }
 
     /// What it does, in one line.
@@ -86,6 +83,14 @@ impl Kind {
     /// The kind of that name.
     pub fn named(name: &str) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+}
+
+impl<'de> Deserialize<'de> for Kind {
+    /// By its name.
+    fn deserialize<D: Deserializer<'de>>(value: D) -> Result<Kind, D::Error> {
+        let name = String::deserialize(value)?;
+        Kind::named(&name).ok_or_else(|| D::Error::unknown_variant(&name, &Kind::NAMES))
     }
 }
 
@@ -118,6 +123,19 @@ pub struct Range {
     pub far: f64,
     /// Where it is perceived.
     pub map: DistanceMap,
+}
+
+impl Range {
+    /// Where its near and its far end are perceived.
+    pub fn perceived(&self) -> [f64; 2] {
+        [self.near, self.far].map(|distance| self.map.perceived(distance))
+    }
+
+    /// Whether another range, which is farther away, begins to be perceived nearer than this one
+    /// ends: what recedes from the one to the other seems to approach.
+    pub fn runs_back_to(&self, farther: &Range) -> bool {
+        farther.perceived()[0] < self.perceived()[1] * (1.0 - 1e-9)
+    }
 }
 
 impl Projection {

@@ -16,6 +16,7 @@ use super::geometry::{Counts, Cull, Geometry, Options};
 use super::mesh::Mesh;
 use super::rig::HalfSpace;
 use super::shading::Shading;
+use super::vector::extent;
 use super::Scene;
 use crate::formats::{Eye, Formats, Rgba};
 use crate::frame::Scissor;
@@ -46,9 +47,9 @@ impl Partition {
         }
     }
 
-    /// Whether all of a polygon lies before or behind it.
-    fn misses(&self, corners: &[Corner]) -> bool {
-        self.depth_planes.iter().any(|plane| corners.iter().all(|c| plane.at(c.position) < 0.0))
+    /// Whether anything of a polygon lies in it.
+    fn reaches(&self, corners: &[Corner]) -> bool {
+        self.lens.reaches(extent(corners.iter().map(|c| c.position[2])))
     }
 
     /// What lies in the half spaces. Rounding puts no corner before the near plane, where the
@@ -168,7 +169,7 @@ impl<'a> Builder<'a> {
     ) {
         let partitions = Rc::clone(&self.partitions);
         let mut outside = true;
-        for (n, partition) in partitions.iter().enumerate().filter(|(_, p)| !p.misses(corners)) {
+        for (n, partition) in partitions.iter().enumerate().filter(|(_, p)| p.reaches(corners)) {
             outside = false;
             let mut corners = corners.to_vec();
             colour(n, &mut corners);

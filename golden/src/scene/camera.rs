@@ -58,6 +58,8 @@ pub struct Lens {
     after: [f64; 2],
     /// z of the range's ends.
     range: [f64; 2],
+    /// Another lens begins at the far end and has what lies there.
+    joined: bool,
     subpixels: f64,
     guard: f64,
 }
@@ -67,7 +69,10 @@ impl Camera {
     pub fn new(rig: &Rig, width: u32, height: u32, formats: &Formats) -> Camera {
         let ranges = rig.projection.ranges(rig);
         let lens = |range: &Range| Lens::new(rig, range, [width, height], formats);
-        let lenses: Vec<Lens> = ranges.iter().map(lens).collect();
+        let mut lenses: Vec<Lens> = ranges.iter().map(lens).collect();
+        for n in 1..lenses.len() {
+            lenses[n - 1].joined = lenses[n - 1].range[1] == lenses[n].range[0];
+        }
         Camera {
             viewing_distance: rig.viewing_distance,
             near: rig.near(),
@@ -82,10 +87,21 @@ impl Camera {
         &self.lenses
     }
 
-    /// The lens for a point; the nearest one beside the ranges of all.
+    /// The lens for a point; beside the ranges of all, the next farther one or else the last.
     pub fn lens(&self, p: Vec3) -> &Lens {
-        let found = self.lenses.iter().find(|lens| p[2] <= lens.range[1]);
+        let found = self.lenses.iter().find(|lens| !lens.ends_before(p[2]));
         found.unwrap_or(&self.lenses[self.lenses.len() - 1])
+    }
+
+    /// Whether what reaches from one z to another, and is at least partly a lens's, is wholly so.
+    pub fn covers(&self, [least, most]: [f64; 2]) -> bool {
+        let mut reached = least;
+        for [near, far] in self.lenses.iter().map(|lens| lens.range) {
+            if near <= reached {
+                reached = reached.max(far);
+            }
+        }
+        reached >= most
     }
 
     /// Pixel position of a point for an eye, by its lens.
@@ -110,28 +126,10 @@ impl Camera {
         1.0 + p[2] / self.viewing_distance
     }
 
-    /// z of the ends of what is drawn.
-    pub fn depth_range(&self) -> [f64; 2] {
-        [self.lenses[0].range[0], self.lenses[self.lenses.len() - 1].range[1]]
-    }
-
-    /// What lies behind the near and before the far end of what is drawn.
-    pub fn depth_planes(&self) -> [HalfSpace; 2] {
-        planes(self.depth_range())
-    }
-
     /// Whether both eyes see the same rows, so that polygons may be cut in common there.
     pub fn is_level(&self) -> bool {
         self.level
     }
-}
-
-/// The half spaces behind the nearer and before the farther of two z.
-fn planes([near, far]: [f64; 2]) -> [HalfSpace; 2] {
-    [
-        HalfSpace { normal: [0.0, 0.0, 1.0], offset: -near },
-        HalfSpace { normal: [0.0, 0.0, -1.0], offset: far },
-    ]
 }
 
 impl Lens {
@@ -153,6 +151,7 @@ impl Lens {
             before: direction.map(|n| viewer.projection_offset(&range.map) * n),
             after: direction.map(|n| viewer.viewport_offset(&range.map) * n),
             range: [range.near - d, range.far - d],
+            joined: false,
             subpixels: formats.one_pixel() as f64,
             guard: formats.guard_band.into(),
         }
@@ -203,9 +202,28 @@ impl Lens {
         self.range
     }
 
+    fn ends_before(&self, z: f64) -> bool {
+        z > self.range[1] || (self.joined && z == self.range[1])
+    }
+
+    /// Whether anything of what reaches from one z to another is this lens's. What only touches an
+    /// end is not, and what lies flat where two lenses meet is the farther one's, so that nothing is
+    /// drawn twice.
+    pub fn reaches(&self, [least, most]: [f64; 2]) -> bool {
+        let [near, far] = self.range;
+        if least == most {
+            return near <= least && !self.ends_before(least);
+        }
+        near < most && least < far
+    }
+
     /// Behind the near and before the far end.
     pub fn depth_planes(&self) -> [HalfSpace; 2] {
-        planes(self.depth_range())
+        let [near, far] = self.range;
+        [
+            HalfSpace { normal: [0.0, 0.0, 1.0], offset: -near },
+            HalfSpace { normal: [0.0, 0.0, -1.0], offset: far },
+        ]
     }
 
     /// Left, right, top and bottom of an eye's window with its guard band.

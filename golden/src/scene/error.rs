@@ -1,5 +1,6 @@
 //! What can be wrong with a scene, and where.
 
+use super::locate::Locator;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -63,7 +64,7 @@ fn printable(text: &str) -> String {
 
 /// A rig that nothing can be projected with.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field}: expected {expected}, found {found}")]
+#[error("{field}: expected {expected}, found {}", shown(*.found))]
 pub struct RigError {
     /// Name of the value, as in rig files: `piecewise.partitions[1].near`.
     pub field: String,
@@ -73,10 +74,36 @@ pub struct RigError {
     pub found: f64,
 }
 
+/// A number with an exponent where it would be long without.
+fn shown(n: f64) -> String {
+    let short = n == 0.0 || !n.is_finite() || (1e-9..1e15).contains(&n.abs());
+    if short {
+        n.to_string()
+    } else {
+        format!("{n:e}")
+    }
+}
+
 impl RigError {
     /// An error of a value.
     pub fn new(field: impl Into<String>, expected: impl Into<String>, found: f64) -> RigError {
         RigError { field: field.into(), expected: expected.into(), found }
+    }
+
+    /// What was found, with an exponent where it would be long without.
+    pub fn found(&self) -> String {
+        let short = self.found == 0.0 || (1e-9..1e15).contains(&self.found.abs());
+        if short {
+            self.found.to_string()
+        } else {
+            format!("{:e}", self.found)
+        }
+    }
+
+    /// The error at its field in a JSON file of this text.
+    pub(super) fn within(&self, file: &Path, text: &str) -> InputError {
+        let line = Locator::new(text).line_of(&self.field);
+        InputError::new(file, line, &self.field, &self.expected, shown(self.found))
     }
 }
 

@@ -224,25 +224,67 @@ pub fn load(file: &Path) -> Result<HeightGrid, SceneError> {
 
 /// Reads a PNG picture; `file` is its name in messages.
 pub fn read_png(file: &Path, bytes: &[u8]) -> Result<HeightGrid, InputError> {
-    const EXPECTED: &str = "a grey PNG picture of 8 or 16 bits a pixel";
-    let wrong = |found: String| InputError::new(file, None, "file", EXPECTED, found);
-    let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-    let mut reader = decoder.read_info().map_err(|e| wrong(e.to_string()))?;
+    const BEGINNING: &[u8] = b"\x89PNG\r\n\x1a\n";
+    let wrong = |field: &str, expected: &str, found: String| {
+        InputError::new(file, None, field, expected, found)
+    };
+    let cut = || wrong("file", "a whole PNG picture", format!("the first {} bytes", bytes.len()));
+    if bytes.is_empty() || !bytes.starts_with(&BEGINNING[..bytes.len().min(BEGINNING.len())]) {
+        let found = if bytes.is_empty() { "nothing" } else { "something else" };
+        return Err(wrong("file", "a PNG picture", found.into()));
+    }
+    let damaged = |error: png::DecodingError| match error {
+        png::DecodingError::IoError(_) => cut(),
+        error => wrong("file", "an undamaged PNG picture", chunk_by_name(&error.to_string())),
+    };
+    let size = header(bytes);
+    size.map_or(Ok(()), |[columns, rows]| check_size(file, columns, rows))?;
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().map_err(damaged)?;
     let (kind, depth) = reader.output_color_type();
     let wide = depth == png::BitDepth::Sixteen;
-    if kind != png::ColorType::Grayscale || !(wide || depth == png::BitDepth::Eight) {
-        return Err(wrong(format!("{kind:?} of {} bits a channel", depth as u8)));
+    if kind != png::ColorType::Grayscale {
+        let found = format!("{} of {} bits", in_words(kind), depth as u8);
+        return Err(wrong("colour type", "grey, of 8 or 16 bits", found));
+    }
+    if !(wide || depth == png::BitDepth::Eight) {
+        return Err(wrong("bit depth", "8 or 16 bits", (depth as u8).to_string()));
     }
     let [columns, rows] = [reader.info().width, reader.info().height].map(|n| n as usize);
-    check_size(file, columns, rows)?;
     let mut pixels = vec![0; columns * rows * if wide { 2 } else { 1 }];
-    reader.next_frame(&mut pixels).map_err(|e| wrong(e.to_string()))?;
+    reader.next_frame(&mut pixels).map_err(damaged)?;
+    reader.finish().map_err(damaged)?;
     let heights = if wide {
         pixels.chunks_exact(2).map(|n| f64::from(u16::from_be_bytes([n[0], n[1]]))).collect()
     } else {
         pixels.iter().map(|&n| f64::from(n)).collect()
     };
     Ok(HeightGrid { columns, heights })
+}
+
+/// Columns and rows that a PNG picture says in its header, if that comes first, as it must.
+fn header(bytes: &[u8]) -> Option<[usize; 2]> {
+    let size =
+        |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?) as usize);
+    (bytes.get(12..16)? == b"IHDR").then_some([size(16)?, size(20)?])
+}
+
+/// A decoder's message with just the name of a chunk where it shows all its attributes.
+fn chunk_by_name(message: &str) -> String {
+    let parts = message.split_once("ChunkType { type: ").and_then(|(before, chunk)| {
+        let (chunk, after) = chunk.split_once(" }")?;
+        Some(format!("{before}{}{after}", chunk.split(',').next()?))
+    });
+    parts.as_deref().unwrap_or(message).trim_end_matches('.').into()
+}
+
+fn in_words(kind: png::ColorType) -> &'static str {
+    match kind {
+        png::ColorType::Grayscale => "grey",
+        png::ColorType::GrayscaleAlpha => "grey with transparency",
+        png::ColorType::Rgb => "red, green and blue",
+        png::ColorType::Rgba => "red, green and blue with transparency",
+        png::ColorType::Indexed => "a palette",
+    }
 }
 
 /// Reads text; `file` is its name in messages.

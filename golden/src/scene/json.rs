@@ -74,6 +74,12 @@ struct SceneFile {
 
 /// Reads a JSON text; an error names the line and the field.
 pub(super) fn parse<T: DeserializeOwned>(file: &Path, text: &str) -> Result<T, InputError> {
+    // A list would be taken for the fields in their order.
+    let begin = text.trim_start();
+    if begin.starts_with('[') {
+        let line = text[..text.len() - begin.len()].matches('\n').count() + 1;
+        return Err(InputError::new(file, line, "file", "an object in braces", "a list"));
+    }
     let first = match serde_json::from_str(text) {
         Ok(value) => return Ok(value),
         Err(error) => error,
@@ -118,6 +124,7 @@ fn broken(file: &Path, error: &serde_json::Error, path: &str) -> InputError {
     }
     let field = if path.is_empty() { "file" } else { path };
     match message.strip_prefix("expected ") {
+        Some("value") => new(field, "a value", "something else: not well-formed JSON"),
         Some(expected) => new(field, expected, "something else: not well-formed JSON"),
         None => new(field, "well-formed JSON", message),
     }
@@ -202,9 +209,7 @@ fn check(content: &SceneFile, rig: &Rig, file: &Path, text: &str) -> Result<(), 
             return wrong(field, None, format!("1 to {SIZE_LIMIT} pixels"), size.to_string());
         }
     }
-    if let Err(error) = rig.check() {
-        return wrong(&error.field, None, error.expected, error.found.to_string());
-    }
+    rig.check().map_err(|error| error.within(file, text))?;
     let vertices = content.vertices.len();
     let far = |p: &[f64; 3]| !p.iter().all(|n| n.abs() <= COORDINATE_LIMIT);
     if let Some(at) = content.vertices.iter().position(far) {

@@ -18,6 +18,7 @@ pub mod builtin;
 mod camera;
 pub mod clip;
 mod error;
+mod extent;
 mod geometry;
 pub mod height_field;
 pub mod json;
@@ -35,6 +36,7 @@ pub mod wires;
 
 pub use camera::{Camera, Lens, Snapped};
 pub use error::*;
+pub use extent::Extent;
 pub use geometry::{Counts, Cull, Geometry, Options};
 pub use light::{Environment, Light, Lighting, Material, Panel, Source};
 pub use mesh::{Colours, Mesh, REPEAT_LIMIT};

@@ -186,6 +186,11 @@ impl RigFile {
         Some([self.width?, self.height?])
     }
 
+    /// The display from which the rig of a [`Kind::Translate`] follows, if the file has one.
+    pub fn device(&self) -> Option<Device> {
+        self.translate
+    }
+
     /// Placement of a mesh.
     pub fn placement(&self) -> Placement {
         self.placement.clone()
@@ -214,7 +219,7 @@ impl RigFile {
         self.project(rig, kind)
             .and_then(|()| rig.check())
             .and_then(|()| rig.scissor(scene.width))
-            .map_err(|e| self.wrong(&e.field, &e.expected, e.found.to_string()))?;
+            .map_err(|error| error.within(&self.file, &self.text))?;
         if let Some(background) = self.background {
             scene.background = background.map(|c| c.0);
         }
@@ -241,9 +246,15 @@ impl RigFile {
         check_length("translate.viewing_distance", device.viewing_distance)?;
         check_length("translate.dot_pitch", device.dot_pitch)?;
         check_length("pixels_per_unit", rig.pixels_per_unit)?;
-        let view_units = |length| device.view_units(length, rig.pixels_per_unit);
-        (rig.eye_separation, rig.viewing_distance) =
-            (view_units(device.eye_distance), view_units(device.viewing_distance));
+        let view_units = |field: &str, length: f64| {
+            let units = device.view_units(length, rig.pixels_per_unit);
+            check_length(field, units).map(|()| units).map_err(|error| {
+                let expected = "in units (length / dot_pitch / pixels_per_unit)";
+                RigError { expected: format!("{}, {expected}", error.expected), ..error }
+            })
+        };
+        rig.eye_separation = view_units("translate.eye_distance", device.eye_distance)?;
+        rig.viewing_distance = view_units("translate.viewing_distance", device.viewing_distance)?;
         Ok(())
     }
 }

@@ -44,6 +44,12 @@ pub fn mix<const N: usize>(a: [f64; N], b: [f64; N], t: f64) -> [f64; N] {
     core::array::from_fn(|k| a[k] + (b[k] - a[k]) * t)
 }
 
+/// The least and the greatest of some numbers; infinity and minus infinity of none.
+pub fn extent(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    numbers.fold(none, |[least, most], n| [least.min(n), most.max(n)])
+}
+
 /// Outward normal of a triangle whose front, seen counter-clockwise, is outside; its length is
 /// twice the area. (Coordinates are left-handed: the order is the reverse of the usual one.)
 pub fn outward(a: Vec3, b: Vec3, c: Vec3) -> Vec3 {

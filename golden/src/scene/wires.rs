@@ -1,6 +1,7 @@
 //! Wire frames: lines one pixel thick, as quadrilaterals that are drawn like any polygon.
 //!
-//! A line is cut at the near and far planes and becomes two triangles of one id. If it is rather
+//! A line is cut at the near and far planes, or those of each partition of a piecewise projection,
+//! and what is left becomes two triangles of the line's id. If it is rather
 //! upright on the screen, it is one pixel wide across, else one pixel high: it has one pixel in
 //! every row or column that it passes, for both eyes. Where it is upright for one eye and flat
 //! for the other, it is made thick enough to have no gaps in either view, up to [`THICKEST`].
@@ -8,8 +9,8 @@
 use super::error::SceneError;
 use super::mesh::{Colours, Mesh};
 use super::shading::Shading;
-use super::vector::{mix, Vec3};
-use super::{Camera, Material, Scene};
+use super::vector::{extent, mix, Vec3};
+use super::{Camera, Lens, Material, Scene};
 use crate::config::Config;
 use crate::formats::{Eye, Formats};
 use std::collections::HashMap;
@@ -34,35 +35,36 @@ pub fn mesh(lines: &[Line], camera: &Camera) -> Mesh {
     let mut mesh = Mesh::default();
     let mut colours = Vec::new();
     for (id, line) in lines.iter().enumerate() {
-        let Some(line) = line.between_planes(camera) else { continue };
-        let first = mesh.positions.len() as u32;
-        mesh.positions.extend(corners(line.ends, camera));
-        colours.extend([0, 0, 1, 1].map(|end: usize| line.colours[end]));
-        mesh.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|n| first + n)));
-        mesh.triangle_ids.extend([id as u32; 2]);
+        for lens in camera.lenses() {
+            let Some(line) = line.within(lens) else { continue };
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend(corners(line.ends, lens));
+            colours.extend([0, 0, 1, 1].map(|end: usize| line.colours[end]));
+            mesh.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|n| first + n)));
+            mesh.triangle_ids.extend([id as u32; 2]);
+        }
     }
     mesh.colours = Colours::Vertex(colours);
     mesh
 }
 
 impl Line {
-    /// What of the line lies between the near and the far plane.
-    fn between_planes(&self, camera: &Camera) -> Option<Line> {
+    /// What of the line is a lens's.
+    fn within(&self, lens: &Lens) -> Option<Line> {
+        if !lens.reaches(extent(self.ends.iter().map(|p| p[2]))) {
+            return None;
+        }
         let mut inside = [0.0, 1.0];
-        for plane in camera.depth_planes() {
+        for plane in lens.depth_planes() {
             let [from, to] = self.ends.map(|p| plane.at(p));
             let crossing = from / (from - to);
             match (from >= 0.0, to >= 0.0) {
-                (false, false) => return None,
                 (false, true) => inside[0] = f64::max(inside[0], crossing),
                 (true, false) => inside[1] = f64::min(inside[1], crossing),
-                (true, true) => {}
+                _ => {}
             }
         }
-        if inside[0] > inside[1] {
-            return None;
-        }
-        let [near, far] = camera.depth_range();
+        let [near, far] = lens.depth_range();
         Some(Line {
             ends: inside.map(|t| {
                 let [x, y, z] = mix(self.ends[0], self.ends[1], t);
@@ -77,9 +79,9 @@ impl Line {
 }
 
 /// Corners of a line's quadrilateral: two at its first end, then two at its second.
-fn corners(ends: [Vec3; 2], camera: &Camera) -> [Vec3; 4] {
+fn corners(ends: [Vec3; 2], lens: &Lens) -> [Vec3; 4] {
     let run = Eye::BOTH.map(|eye| {
-        let [from, to] = ends.map(|p| camera.pixel(p, eye));
+        let [from, to] = ends.map(|p| lens.pixel(p, eye));
         [to[0] - from[0], to[1] - from[1]]
     });
     // How thick it must be across, or upward, to have a pixel in every column, or row. A quotient
@@ -95,7 +97,7 @@ fn corners(ends: [Vec3; 2], camera: &Camera) -> [Vec3; 4] {
         let mut moved = p;
         moved[axis] += 1.0;
         // Linear in x and y, so that one unit tells how many pixels a unit is.
-        let unit = camera.pixel(moved, Eye::Left)[axis] - camera.pixel(p, Eye::Left)[axis];
+        let unit = lens.pixel(moved, Eye::Left)[axis] - lens.pixel(p, Eye::Left)[axis];
         moved[axis] = p[axis] + pixels / unit;
         moved
     };

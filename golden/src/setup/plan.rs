@@ -102,7 +102,8 @@ pub enum Reason {
     Gradient,
     /// It has more than three corners, which is a monocular feature.
     Corners,
-    /// The head is tilted, and the hardware is built without TILT.
+    /// The head is tilted, and the hardware is built without TILT, or the secondary may show rows
+    /// that the primary has above or below its window, where it is not visited.
     Tilt,
 }
 
@@ -305,7 +306,9 @@ impl Planner {
         // With a tilted head the larger view may still be the narrower one.
         let (primary, map) =
             usable(larger).or_else(|| usable(larger.other())).ok_or(Reason::ViewExclusive)?;
-        if !self.config.tilt && polygon.vertices.iter().any(|v| v.y[0] != v.y[1]) {
+        let tilted = polygon.vertices.iter().any(|v| v.y[0] != v.y[1]);
+        let primary_view = View::new(&outlines[primary as usize], &self.formats);
+        if tilted && !(self.config.tilt && primary_view.has_rows_within(self.height)) {
             return Err(Reason::Tilt);
         }
         if map.exceeds_filter() {
@@ -332,7 +335,6 @@ impl Planner {
             return Err(Reason::Gradient);
         }
 
-        let primary_view = View::new(&outlines[primary as usize], &self.formats);
         let secondary_view = View::new(&outlines[primary.other() as usize], &self.formats);
         let right = i64::from(self.width) - 1;
         let uncut = primary_view.is_within(self.width) && secondary_view.is_within(self.width);

@@ -64,6 +64,12 @@ impl View {
         self.bounds[0][0] >= 0 && self.bounds[1][0] <= right
     }
 
+    /// Whether no corner lies outside rows 0 to height - 1.
+    pub fn has_rows_within(&self, height: u32) -> bool {
+        let bottom = i64::from(height) << self.formats.subpixel_bits;
+        self.bounds[0][1] >= 0 && self.bounds[1][1] <= bottom
+    }
+
     /// Scan lines whose centre line meets the polygon, or with anti-aliasing any line of samples.
     fn lines(&self, height: u32) -> core::ops::Range<i64> {
         let pixel = self.formats.one_pixel();

@@ -1,4 +1,5 @@
-//! The edges of a polygon that cross a scan line, in one view or in several at once.
+//! The edges of a polygon that cross a scan line, in one view or in several at once: Adelson et al. 1991,
+//! "Rendering Polygons".
 //!
 //! A row's crossings follow from its centre line, and pixel i belongs to the polygon between two
 //! of them where ceil(left − 1/2) <= i < ceil(right − 1/2): the top-left rule, exactly, for the

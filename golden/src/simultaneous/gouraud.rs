@@ -10,7 +10,8 @@ use super::edges::{Corner, Edges, Span, VALUE_BITS};
 use crate::work::Meter;
 use std::ops::Range;
 
-/// Calls `ramp(view, y, ramp)` for the rows of a polygon, from the top.
+/// Calls `ramp(view, y, ramp)` for the rows of a polygon, from the top. 4E + 3I interpolations for one
+/// view, 5E + 6I for two (Adelson et al. 1991, "Rendering Polygons").
 pub fn shade<const VIEWS: usize, const VALUES: usize>(
     edges: &mut Edges<VIEWS, VALUES>,
     polygon: &[Corner<VIEWS, VALUES>],

@@ -30,7 +30,8 @@ impl<T: Real> Projector<T> {
         }
     }
 
-    /// A point as an eye sees it; it must lie before the eyes, z > −d.
+    /// A point as an eye sees it; it must lie before the eyes, z > −d. Adelson et al. 1991, "Differences
+    /// and Similarities Between The Views": x_sL or x_sR, and y_s.
     #[inline]
     pub fn one(&self, [x, y, z]: [T; 3], eye: Eye) -> Point<T, 1> {
         let to_eye = match eye {
@@ -42,7 +43,7 @@ impl<T: Real> Projector<T> {
         Point { x: [(x + depth * to_eye) / w], y: y / w }
     }
 
-    /// A point as both eyes see it; it must lie before the eyes, z > −d.
+    /// A point as both eyes see it; it must lie before the eyes, z > −d. The same section: 8 operations.
     #[inline]
     pub fn both(&self, [x, y, z]: [T; 3]) -> Point<T, 2> {
         let depth = z * self.inverse_distance;

@@ -10,8 +10,9 @@ const FRACTION: u32 = 7;
 /// quarter of a unit at most.
 const STRETCH: usize = 64;
 
-/// Puts a polygon into the items of a span where it is nearer than what is there.
-#[inline]
+/// Puts a polygon into the items of a span where it is nearer than what is there. Not inlined, so that
+/// one view and both have the same code for pixels.
+#[inline(never)]
 pub(super) fn keep_nearer<T: Real>(
     items: &mut [u32],
     depths: &mut [i32],

@@ -46,7 +46,7 @@ fn row_below(y: i32, formats: &Formats) -> i32 {
 
 impl<const EYES: usize> Edge<EYES> {
     /// The edge from an upper to a lower corner, on its first row from row `top` on; none if it
-    /// crosses no row there. What the views share is computed once.
+    /// crosses no row there. What the views share is computed once: rows are those of the first one.
     #[inline]
     pub fn new<T: Real>(
         upper: &Vertex,
@@ -55,15 +55,16 @@ impl<const EYES: usize> Edge<EYES> {
         top: i32,
         formats: &Formats,
     ) -> Option<(Edge<EYES>, Along<T>)> {
-        let first = row_below(upper.y[0], formats).max(top);
-        let end = row_below(lower.y[0], formats);
+        let [upper_y, lower_y] = [upper, lower].map(|v| v.y[eyes[0] as usize]);
+        let first = row_below(upper_y, formats).max(top);
+        let end = row_below(lower_y, formats);
         if first >= end {
             return None;
         }
         let bits = formats.subpixel_bits;
         let half = 1 << (bits - 1);
-        let rise = lower.y[0] - upper.y[0];
-        let down = (first << bits) + half - upper.y[0];
+        let rise = lower_y - upper_y;
+        let down = (first << bits) + half - upper_y;
         let inverse = T::of(1.0) / T::of(f64::from(rise));
         // The part of the way is exact, or off by less than 2^-52.
         let row_scale = inverse.value() * ONE as f64;

@@ -6,6 +6,7 @@
 
 pub mod bsp;
 mod depths;
+mod disparity;
 mod edge;
 mod items;
 pub mod model;

@@ -15,7 +15,7 @@ use crate::direct::Direct;
 use crate::formats::{Eye, Formats};
 use crate::frame::{Frame, NO_ID};
 use crate::stereo::{pieces, Job};
-use crate::work::Meter;
+use crate::work::{Meter, Operations};
 
 /// The polygons that a view shows.
 #[derive(Clone, Debug, Default)]
@@ -34,7 +34,10 @@ impl Visible {
     /// and every visible polygon, and none for the others.
     pub fn find(&mut self, p_buffer: &[u32], meter: &mut impl Meter) {
         self.ids.drain(..).for_each(|id| self.flags[id as usize] = false);
-        meter.note(|work| work.pixels_tested += p_buffer.len() as u64);
+        meter.note(|work| {
+            work.pixels_tested += p_buffer.len() as u64;
+            work.fixed_point += Operations::comparisons(p_buffer.len() as u64);
+        });
         let mut last = NO_ID;
         for &id in p_buffer {
             // Neighbours are mostly of one polygon.

@@ -243,8 +243,9 @@ fn is_front(corners: [&Vertex; 3], eye: Eye) -> bool {
 }
 
 /// Interpolates colours over a run, to the nearest level, with 16 fraction bits. At pixel centres
-/// between the edges they do not leave the range of the corners by more than rounding.
-#[inline]
+/// between the edges they do not leave the range of the corners by more than rounding. Not inlined, so
+/// that one view and both have the same code for pixels.
+#[inline(never)]
 fn shade<T: Real>(row: &mut [u32], lines: [Line<T>; 3]) {
     const ONE: f64 = 65536.0;
     let mut level = lines.map(|line| (line.first.value() * ONE + ONE / 2.0) as i32);

@@ -9,11 +9,12 @@
 //! overwrites ends with it. The rest is counted here.
 
 use super::view::View;
-use crate::formats::{Eye, DEPTH_MAX};
+use crate::formats::Eye;
 use crate::frame::{Frame, NO_ID};
 use crate::picture::{Rgb, RgbImage};
-use crate::scene::Rig;
-use crate::work::Meter;
+use crate::work::{Meter, Operations};
+
+pub use super::disparity::Disparity;
 
 /// A view made by warping.
 #[derive(Clone, Debug)]
@@ -22,48 +23,6 @@ pub struct Warped {
     pub frame: Frame,
     /// How many pixels fell on each place, up to 255.
     pub sources: Vec<u8>,
-}
-
-/// Fraction bits of a disparity.
-const FRACTION: u32 = 40;
-
-/// Position in the other eye's view less that in one eye's, as a function of depth.
-#[derive(Clone, Copy, Debug)]
-pub struct Disparity {
-    /// At the near plane, in pixels with [`FRACTION`] bits.
-    near: i64,
-    /// Change for one unit of depth.
-    slope: i64,
-}
-
-impl Disparity {
-    /// Of two centres of projection: x_L − x_R = −ppu·e·z/(z + d), which is affine in 1/(z + d), as depth is.
-    /// Negated from the left to the right eye.
-    pub fn new(rig: &Rig, from: Eye) -> Disparity {
-        let [left, right] = Eye::BOTH.map(|eye| rig.eye(eye)[0]);
-        let e = if from == Eye::Right { right - left } else { left - right };
-        let at = |w: f64| -rig.pixels_per_unit * e * (1.0 - rig.viewing_distance / w);
-        let fixed = |n: f64| (n * (1i64 << FRACTION) as f64).round_ties_even() as i64;
-        // No picture is that wide; sums stay within their bits.
-        let [near, far] = [rig.near(), rig.far()].map(|w| at(w).clamp(-1e6, 1e6));
-        Disparity { near: fixed(near), slope: fixed((far - near) / f64::from(DEPTH_MAX)) }
-    }
-
-    #[inline]
-    fn fixed(&self, depth: u32) -> i64 {
-        self.near + self.slope * i64::from(depth)
-    }
-
-    /// At a depth, in pixels.
-    pub fn at(&self, depth: u32) -> f64 {
-        self.fixed(depth) as f64 / (1i64 << FRACTION) as f64
-    }
-
-    /// To the nearest pixel, halves upward.
-    #[inline]
-    pub fn rounded(&self, depth: u32) -> i64 {
-        (self.fixed(depth) + (1 << (FRACTION - 1))) >> FRACTION
-    }
 }
 
 impl Warped {
@@ -78,10 +37,64 @@ impl Warped {
         self.frame.depth[at] = depth;
         self.frame.id[at] = source.id[from];
     }
+
+    /// Moves the pixels of a row, which begins at an index, within it: from right to left for the
+    /// left view, from left to right for the right one.
+    fn move_row(
+        &mut self,
+        source: &Frame,
+        row: usize,
+        from: Eye,
+        disparity: &Disparity,
+        meter: &mut impl Meter,
+    ) {
+        let width = source.width as usize;
+        for n in 0..width {
+            let x = if from == Eye::Right { width - 1 - n } else { n };
+            let depth = source.depth[row + x];
+            meter.note(|work| work.fixed_point += disparity.operations(depth));
+            let target = x as i64 + disparity.rounded(depth);
+            if (0..width as i64).contains(&target) {
+                let at = row + target as usize;
+                self.sources[at] = self.sources[at].saturating_add(1);
+                self.put(at, source, row + x, depth);
+                meter.note(|work| work.pixels_written += 1);
+            }
+        }
+    }
+
+    /// Moves the pixels of a row, which begins at an index, to where they are nearer than what is there.
+    fn move_row_by_depth(
+        &mut self,
+        source: &Frame,
+        row: usize,
+        disparity: &Disparity,
+        meter: &mut impl Meter,
+    ) {
+        let width = source.width as usize;
+        for x in 0..width {
+            let depth = source.depth[row + x];
+            meter.note(|work| work.fixed_point += disparity.operations(depth));
+            let [right, down] = disparity.both_rounded(depth);
+            let target = [x as i64 + right, (row / width) as i64 + down];
+            let Some(at) = self.frame.index(target[0], target[1]) else { continue };
+            let first = self.sources[at] == 0;
+            self.sources[at] = self.sources[at].saturating_add(1);
+            meter.note(|work| {
+                work.depth_tests += 1;
+                work.fixed_point += Operations::comparisons(1);
+            });
+            if first || depth < self.frame.depth[at] {
+                self.put(at, source, row + x, depth);
+                meter.note(|work| work.pixels_written += 1);
+            }
+        }
+    }
 }
 
-/// The other eye's view from that of `from`, by overwriting in the order that leaves the nearest pixel.
-/// What has been left empty in the source moves as the far plane does.
+/// The other eye's view from that of `from`: by overwriting in the order that leaves the nearest pixel,
+/// or where there is none ([`Disparity::is_ordered`]) by a depth test. What has been left empty in the
+/// source moves as the far plane does.
 pub fn other_eye(
     source: &Frame,
     from: Eye,
@@ -92,15 +105,10 @@ pub fn other_eye(
     let mut warped = Warped::new(source, background);
     let width = source.width as usize;
     for row in (0..source.id.len()).step_by(width.max(1)) {
-        for n in 0..width {
-            let x = if from == Eye::Right { width - 1 - n } else { n };
-            let target = x as i64 + disparity.rounded(source.depth[row + x]);
-            if (0..width as i64).contains(&target) {
-                let at = row + target as usize;
-                warped.sources[at] = warped.sources[at].saturating_add(1);
-                warped.put(at, source, row + x, source.depth[row + x]);
-                meter.note(|work| work.pixels_written += 1);
-            }
+        if disparity.is_ordered() {
+            warped.move_row(source, row, from, disparity, meter);
+        } else {
+            warped.move_row_by_depth(source, row, disparity, meter);
         }
     }
     meter.note(|work| work.pixels_tested += source.id.len() as u64);

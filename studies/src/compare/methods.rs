@@ -1,16 +1,18 @@
 //! The methods that are compared.
 
-use super::{Method, Pair, Timed, Unsuited};
+use super::{Judged, Method, Pair, Timed, Unsuited};
 use crate::prepared::Prepared;
+use crate::timing::shortest;
+use std::time::Duration;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::{Frame, Frames};
 use wheatstone_golden::primary::Counts;
-use wheatstone_golden::projection::Kind;
 use wheatstone_golden::setup::{Eyes, Polygon};
 use wheatstone_golden::stereo::Job;
+use wheatstone_golden::visibility::bsp::{self, Tree};
 use wheatstone_golden::visibility::p_buffer;
 use wheatstone_golden::visibility::warping::{self, Disparity, Warped};
-use wheatstone_golden::visibility::{bsp, scan_line, Items, Surfaces};
+use wheatstone_golden::visibility::{scan_line, Items, Surfaces};
 use wheatstone_golden::work::{counted, Counted, Meter, Real, Unmetered, Work};
 
 /// All methods, in the order of the table.
@@ -18,6 +20,8 @@ pub const METHODS: &[Method] = &[
     Method {
         name: "direct",
         description: "each view rasterised for itself",
+        judged: Judged::Right,
+        preparation: None,
         draw: |prepared| {
             let mut work = Work::default();
             let job = prepared.job();
@@ -25,36 +29,35 @@ pub const METHODS: &[Method] = &[
             let right = job.view(Eye::Right, &mut work);
             // What a second pass of the pixel pipeline would take.
             work.beats = alone(prepared, Eye::Right, false).1.beats();
-            Ok(Pair { frames: [left, right], work, holes: None })
+            Ok(Pair { frames: [left, right], work })
         },
         timed: Timed::Second(|prepared, _| prepared.job().view(Eye::Right, &mut Unmetered)),
     },
     Method {
         name: "warping",
         description: "pixels of the first view moved by their disparity",
+        judged: Judged::Right,
+        preparation: None,
         draw: |prepared| {
             let mut work = Work::default();
             let job = prepared.job();
             let left = job.view(Eye::Left, &mut Unmetered);
-            let warped = warp(prepared, &left, &mut work)?;
-            let holes = warped.sources.iter().filter(|&&sources| sources == 0).count() as u64;
-            Ok(Pair { frames: [left, warped.frame], work, holes: Some(holes) })
+            let warped = warp(prepared, &left, &mut work);
+            Ok(Pair { frames: [left, warped.frame], work })
         },
-        timed: Timed::Second(|prepared, left| match warp(prepared, left, &mut Unmetered) {
-            Ok(warped) => warped.frame,
-            // Only scenes that can be drawn are timed.
-            Err(_) => left.clone(),
-        }),
+        timed: Timed::Second(|prepared, left| warp(prepared, left, &mut Unmetered).frame),
     },
     Method {
         name: "p-buffer",
         description: "the polygons that the first view shows, drawn for the second",
+        judged: Judged::Right,
+        preparation: None,
         draw: |prepared| {
             let mut work = Work::default();
             let job = prepared.job();
             let left = job.view(Eye::Left, &mut Unmetered);
             let right = p_buffer::other_eye(&job, &left, Eye::Left, &mut work);
-            Ok(Pair { frames: [left, right], work, holes: None })
+            Ok(Pair { frames: [left, right], work })
         },
         timed: Timed::Second(|prepared, left| {
             p_buffer::other_eye(&prepared.job(), left, Eye::Left, &mut Unmetered)
@@ -63,7 +66,13 @@ pub const METHODS: &[Method] = &[
     Method {
         name: "scan-line",
         description: "scan-line hidden surfaces of both views at once",
-        draw: |prepared| simultaneous(prepared, scanned::<Counted, _>, scanned_first::<Counted, _>),
+        judged: Judged::Both,
+        preparation: None,
+        draw: |prepared| {
+            // With a tilted head there would be a pass for each view, and nothing shared.
+            surfaces(prepared)?.level().map_err(|error| Unsuited(error.to_string()))?;
+            simultaneous(prepared, scanned::<Counted, _>, scanned_first::<Counted, _>)
+        },
         timed: Timed::Both {
             both: |prepared| {
                 frames(prepared, |s| scanned::<f64, _>(prepared, s, &mut Unmetered).into())
@@ -76,16 +85,9 @@ pub const METHODS: &[Method] = &[
     Method {
         name: "bsp-z",
         description: "BSP tree, made beforehand, and one z-buffer: both views by one traversal",
-        draw: |prepared| {
-            let polygons = prepared.geometry.polygons.len();
-            if polygons > LARGEST_TREE {
-                let most = format!(
-                    "expected at most {LARGEST_TREE} polygons for a tree, found {polygons}"
-                );
-                return Err(Unsuited(most));
-            }
-            simultaneous(prepared, painted, painted_first)
-        },
+        judged: Judged::Both,
+        preparation: Some(make_tree),
+        draw: |prepared| simultaneous(prepared, painted, painted_first),
         timed: Timed::Both {
             both: |prepared| frames(prepared, |s| painted(prepared, s, &mut Unmetered).into()),
             first: |prepared| {
@@ -96,6 +98,8 @@ pub const METHODS: &[Method] = &[
     Method {
         name: "sam-minimal",
         description: "stereoscopic affine mapping, minimal system: mapping and sampling only",
+        judged: Judged::Both,
+        preparation: None,
         draw: |prepared| Ok(mapped(prepared, true)),
         timed: Timed::Both {
             both: |prepared| both(&prepared.job(), true),
@@ -105,6 +109,8 @@ pub const METHODS: &[Method] = &[
     Method {
         name: "sam-hybrid",
         description: "stereoscopic affine mapping, hybrid system: all units",
+        judged: Judged::Both,
+        preparation: None,
         draw: |prepared| Ok(mapped(prepared, false)),
         timed: Timed::Both {
             both: |prepared| both(&prepared.job(), false),
@@ -113,8 +119,10 @@ pub const METHODS: &[Method] = &[
     },
 ];
 
-/// Most polygons of a BSP tree: the time to build one grows with their square.
-const LARGEST_TREE: usize = 20_000;
+/// The surfaces of a scene.
+fn surfaces(prepared: &Prepared) -> Result<Surfaces<'_>, Unsuited> {
+    Surfaces::new(&prepared.job()).map_err(|error| Unsuited(error.to_string()))
+}
 
 fn scanned<T: Real, M: Meter>(_: &Prepared, surfaces: &Surfaces, meter: &mut M) -> [Items; 2] {
     scan_line::both::<T>(surfaces, meter)
@@ -132,41 +140,42 @@ fn painted_first<M: Meter>(prepared: &Prepared, surfaces: &Surfaces, meter: &mut
     bsp::one(surfaces, prepared.tree(surfaces), Eye::Left, meter)
 }
 
+/// Time to make the tree anew.
+fn make_tree(prepared: &Prepared) -> Duration {
+    // Only scenes that can be drawn are timed.
+    surfaces(prepared).map_or(Duration::ZERO, |surfaces| shortest(1, || Tree::new(&surfaces)))
+}
+
 /// Both views at once, and the work that they take more than the left one by the same code.
 fn simultaneous(
     prepared: &Prepared,
     both: impl Fn(&Prepared, &Surfaces, &mut Work) -> [Items; 2],
     first: impl Fn(&Prepared, &Surfaces, &mut Work) -> Items,
 ) -> Result<Pair, Unsuited> {
-    let job = prepared.job();
-    let surfaces = Surfaces::new(&job).map_err(|error| Unsuited(error.to_string()))?;
+    let surfaces = surfaces(prepared)?;
     let (mut together, mut alone) = (Work::default(), Work::default());
     let (items, done) = counted(|| both(prepared, &surfaces, &mut together));
     together.operations = done;
-    (_, alone.operations) = counted(|| first(prepared, &surfaces, &mut alone));
-    let frames = Eye::BOTH.map(|eye| surfaces.frame(&items[eye as usize], eye));
-    Ok(Pair { frames, work: together.beyond(&alone), holes: None })
+    let (_, done) = counted(|| first(prepared, &surfaces, &mut alone));
+    alone.operations = done;
+    let [left, right] = items;
+    let left = surfaces.frame(&left, Eye::Left);
+    let right = surfaces.frame_metered(&right, Eye::Right, &mut together);
+    Ok(Pair { frames: [left, right], work: together.beyond(&alone) })
 }
 
 /// Frames of views that are resolved by `resolve`, the left one first.
 fn frames(prepared: &Prepared, resolve: impl Fn(&Surfaces) -> Vec<Items>) -> Vec<Frame> {
     // Only scenes that can be drawn are timed.
-    let Ok(surfaces) = Surfaces::new(&prepared.job()) else { return Vec::new() };
+    let Ok(surfaces) = surfaces(prepared) else { return Vec::new() };
     let items = resolve(&surfaces);
     items.iter().zip(Eye::BOTH).map(|(items, eye)| surfaces.frame(items, eye)).collect()
 }
 
 /// The right view, warped from the left one.
-fn warp(prepared: &Prepared, left: &Frame, meter: &mut impl Meter) -> Result<Warped, Unsuited> {
-    let rig = &prepared.scene.rig;
-    let moves_pixels_only =
-        matches!(rig.projection.kind(), Kind::TwoCentres | Kind::Shear | Kind::Translate)
-            && rig.head_tilt == 0.0;
-    if !moves_pixels_only {
-        return Err(Unsuited("warping knows disparities of level eyes at two centres only".into()));
-    }
-    let disparity = Disparity::new(rig, Eye::Left);
-    Ok(warping::other_eye(left, Eye::Left, &disparity, prepared.job().background, meter))
+fn warp(prepared: &Prepared, left: &Frame, meter: &mut impl Meter) -> Warped {
+    let disparity = Disparity::new(&prepared.scene.rig, Eye::Left);
+    warping::other_eye(left, Eye::Left, &disparity, prepared.job().background, meter)
 }
 
 /// Both views by a system.
@@ -196,5 +205,5 @@ fn mapped(prepared: &Prepared, minimal: bool) -> Pair {
         pixels_written: frames.written[Eye::Right as usize],
         ..Work::default()
     };
-    Pair { frames: frames.eyes, work, holes: None }
+    Pair { frames: frames.eyes, work }
 }

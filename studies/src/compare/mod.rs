@@ -2,15 +2,15 @@
 //!
 //! All methods draw the same polygons: lit, projected, clipped and snapped for both eyes, which is
 //! not timed. The first view is the left one, drawn directly, and what is timed and counted is
-//! only what makes the right one ([`Timed`]). Errors are those of both views against direct
-//! rendering, because the pipeline derives some polygons for the one and some for the other eye.
+//! only what makes the right one ([`Timed`]). Errors are those against direct rendering: of the right
+//! view where it alone is made, and of both views where both are ([`Judged`]).
 
 mod methods;
 
 pub use methods::METHODS;
 
 use crate::prepared::Prepared;
-use crate::timing::ratio;
+use crate::timing::{ratio, shortest};
 use serde_json::{json, Value};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -31,10 +31,34 @@ pub struct Method {
     pub name: &'static str,
     /// What it does, in one line.
     pub description: &'static str,
+    /// Which views can be wrong.
+    pub judged: Judged,
+    /// Makes what must be made beforehand, which is not part of what is timed, and tells how long that
+    /// takes.
+    pub preparation: Option<fn(&Prepared) -> Duration>,
     /// Draws both views and counts.
     pub draw: fn(&Prepared) -> Result<Pair, Unsuited>,
     /// What is timed.
     pub timed: Timed,
+}
+
+/// The views that a method makes, and that are held against direct rendering.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judged {
+    /// The right one: the left one is drawn directly.
+    Right,
+    /// Both: by one pass, or polygon by polygon the one from the other.
+    Both,
+}
+
+impl Judged {
+    /// Its name in tables and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Judged::Right => "right",
+            Judged::Both => "both",
+        }
+    }
 }
 
 /// Both views, and what the second one took.
@@ -44,8 +68,6 @@ pub struct Pair {
     pub frames: [Frame; 2],
     /// Work for the second view.
     pub work: Work,
-    /// Pixels that the method knows nothing about; none where it does not know of any.
-    pub holes: Option<u64>,
 }
 
 /// What is timed of a method, without counting. Only scenes that [`Method::draw`] can draw come
@@ -84,10 +106,12 @@ pub struct Measured {
     pub work: Work,
     /// Time of the second view over that of direct rendering.
     pub time: f64,
-    /// Both views against direct rendering.
+    /// Time to make what must be made beforehand over that of direct rendering, if there is any.
+    pub preparation: Option<f64>,
+    /// The left and the right view against direct rendering.
+    pub views: [Quality; 2],
+    /// The views that the method makes against direct rendering.
     pub quality: Quality,
-    /// Pixels without a colour of their own.
-    pub holes: u64,
     /// The error picture.
     pub file: Option<PathBuf>,
 }
@@ -106,7 +130,7 @@ pub fn compare(
     let start = Instant::now();
     let direct = job.direct();
     let rounds = ROUNDS_TIME.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6);
-    let rounds = rounds.clamp(7.0, 41.0) as usize;
+    let rounds = rounds.clamp(7.0, 31.0) as usize;
     let mut outcomes = Vec::new();
     for method in METHODS {
         tell(method);
@@ -122,16 +146,15 @@ pub fn compare(
                     let errors = [0, 1].map(|n| error_picture(&pair.frames[n], &direct[n]));
                     write_png(file, &side_by_side(&[&errors[0], &errors[1]]))?;
                 }
-                let quality = Eye::BOTH
+                let views = Eye::BOTH
                     .map(|e| Quality::of(&job, e, &pair.frames[e as usize], &direct[e as usize]));
-                let quality = Quality::together(quality);
-                Ok(Measured {
-                    work: pair.work,
-                    time: second_view_time(method, prepared, &direct[0], rounds),
-                    holes: pair.holes.unwrap_or(quality.gaps as u64),
-                    quality,
-                    file,
-                })
+                let quality = match method.judged {
+                    Judged::Right => views[1],
+                    Judged::Both => Quality::together(views),
+                };
+                let time = second_view_time(method, prepared, &direct[0], rounds);
+                let preparation = preparation_time(method, prepared);
+                Ok(Measured { work: pair.work, time, preparation, views, quality, file })
             }
         };
         outcomes.push(Outcome { method: *method, result });
@@ -149,6 +172,15 @@ fn second_view_time(method: &Method, prepared: &Prepared, first: &Frame, rounds:
             both - ratio(rounds, || first(prepared), direct).median
         }
     }
+}
+
+/// Time of what a method must make beforehand over that of direct rendering of one view.
+fn preparation_time(method: &Method, prepared: &Prepared) -> Option<f64> {
+    let direct = || prepared.job().view(Eye::Right, &mut Unmetered);
+    method.preparation.map(|make| {
+        let made = make(prepared);
+        made.as_secs_f64() / shortest(3, direct).as_secs_f64()
+    })
 }
 
 /// Direct rendering in faint grey; over it red where another polygon is shown, magenta where none
@@ -185,7 +217,9 @@ pub fn table(outcomes: &[Outcome]) -> String {
         "pixels",
         "beats",
         "time",
+        "views",
         "wrong polygon",
+        "ties",
         "wrong colour",
         "holes",
         "PSNR",
@@ -198,7 +232,16 @@ pub fn table(outcomes: &[Outcome]) -> String {
                 row.push("unsuited".into());
                 notes += &format!("\n{}: {unsuited}", method.name);
             }
-            Ok(measured) => row.extend(cells(measured)),
+            Ok(measured) => {
+                row.extend(cells(method, measured));
+                if let Some(preparation) = measured.preparation {
+                    let sum = measured.time + preparation;
+                    notes += &format!(
+                        "\n{}: making the tree takes {preparation:.2} more, {sum:.2} together",
+                        method.name
+                    );
+                }
+            }
         }
         table.add_row(row);
     }
@@ -208,26 +251,29 @@ pub fn table(outcomes: &[Outcome]) -> String {
     format!("{table}{notes}")
 }
 
-fn cells(measured: &Measured) -> [String; 8] {
-    let Measured { work, time, quality, holes, .. } = measured;
+fn cells(method: &Method, measured: &Measured) -> [String; 10] {
+    let Measured { work, time, quality, .. } = measured;
     let counted = |n: u64| if n == 0 { "–".into() } else { Grouped(n).to_string() };
+    let number = |n: usize| Grouped(n as u64).to_string();
     let share = |n: usize| {
-        format!("{} ({:.2} %)", Grouped(n as u64), 100.0 * n as f64 / quality.pixels.max(1) as f64)
+        format!("{} ({:.2} %)", number(n), 100.0 * n as f64 / quality.pixels.max(1) as f64)
     };
     [
-        counted(work.operations.all()),
+        counted(work.arithmetic().all()),
         counted(work.pixels()),
         counted(work.beats),
         format!("{time:.2}"),
-        share(quality.ids),
+        method.judged.name().into(),
+        share(quality.ids - quality.ties),
+        number(quality.ties),
         share(quality.colours),
-        Grouped(*holes).to_string(),
+        number(quality.gaps),
         quality.ratio(),
     ]
 }
 
 /// A number with its thousands apart.
-struct Grouped(u64);
+pub struct Grouped(pub u64);
 
 impl fmt::Display for Grouped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -247,20 +293,34 @@ fn counts(work: Value) -> Value {
     }
 }
 
+/// A view, or both together, as JSON.
+fn quality_json(quality: &Quality) -> Value {
+    json!({
+        "pixels": quality.pixels,
+        "wrong_polygon": quality.ids - quality.ties,
+        "ties": quality.ties,
+        "wrong_colour": quality.colours,
+        "holes": quality.gaps,
+        "identical": quality.decibels.is_infinite(),
+        "psnr_db": quality.decibels.is_finite().then_some(quality.decibels),
+    })
+}
+
 /// The outcomes as JSON.
 pub fn json(outcomes: &[Outcome]) -> Value {
     let one = |Outcome { method, result }: &Outcome| match result {
         Err(unsuited) => json!({ "method": method.name, "unsuited": unsuited.to_string() }),
-        Ok(Measured { work, time, quality, holes, file }) => json!({
+        Ok(Measured { work, time, preparation, views, file, .. }) => json!({
             "method": method.name,
+            "operations": counts(json!(work.arithmetic())),
             "work": counts(json!(work)),
             "time_ratio": time,
-            "pixels": quality.pixels,
-            "wrong_polygon": quality.ids,
-            "wrong_colour": quality.colours,
-            "holes": holes,
-            "identical": quality.decibels.is_infinite(),
-            "psnr_db": quality.decibels.is_finite().then_some(quality.decibels),
+            "preparation_time_ratio": preparation,
+            "time_ratio_with_preparation": preparation.map(|preparation| time + preparation),
+            "judged": method.judged.name(),
+            "left": quality_json(&views[0]),
+            "right": quality_json(&views[1]),
+            "both": quality_json(&Quality::together(*views)),
             "file": file,
         }),
     };

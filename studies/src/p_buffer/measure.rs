@@ -12,7 +12,7 @@ use wheatstone_golden::visibility::{Model, Pose, View};
 use wheatstone_golden::work::{Unmetered, Work};
 
 /// Runs of each piece of code that is timed.
-const ROUNDS: usize = 21;
+const ROUNDS: usize = 81;
 /// Further runs of the view from visible polygons, which takes a fraction of a millisecond.
 const SHORT_RUNS: usize = 200;
 /// How far the viewer moves in the publication's figures 3 to 7: 20 cm to the left, and three degrees
@@ -150,7 +150,7 @@ impl Office {
             visible: visible.ids().len(),
             full: [first.second, next.second].map(milliseconds),
             p_buffer: [first.first, next.first].map(milliseconds),
-            first_ratio: first.median,
+            first_ratio: first.of_shortest(),
             work: [full, flagged],
             wrong: step.percent()[0],
             faults: step.warped.faults(&step.truth),

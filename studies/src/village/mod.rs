@@ -7,8 +7,9 @@
 
 pub mod boxes;
 
+use crate::adelson::table_1::{Printed, BSP, SCAN_LINE, VILLAGE};
 use crate::report::{Check, Report, Row, Table};
-use crate::timing::ratio;
+use crate::timing::{at_least, least_speed_up, ratio};
 use crate::{Experiment, StudyError};
 use boxes::{boxes, TRIANGLES};
 use std::path::Path;
@@ -29,10 +30,7 @@ const SIZE: [u32; 2] = [320, 240];
 /// Size of the views that are also timed.
 const LARGE: [u32; 2] = [640, 480];
 /// Times that each way is timed.
-const ROUNDS: usize = 61;
-
-const SPEED_UP: &str =
-    "column III prints 1 + II; by its own definition it is 1/(1 - I), see docs/errata.md";
+const ROUNDS: usize = 151;
 
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment {
@@ -71,35 +69,39 @@ fn surfaces(geometry: &Geometry) -> Result<Surfaces<'_>, StudyError> {
     Ok(Surfaces::new(&job)?)
 }
 
-/// What the authors print of an algorithm: percentage saved and speed-up.
-#[derive(Clone, Copy)]
-struct Printed {
-    saved: f64,
-    speed_up: f64,
+/// Measures of the time of two views one by one by that of both at once, given as a ratio. With
+/// nothing saved it is one.
+fn time_rows(printed: &Printed, what: &str, ratio: f64) -> [Row; 3] {
+    let checks = [Check::Trend, Check::Trend, at_least(least_speed_up(printed.i / 100.0))];
+    printed.rows(&format!("{what}: time"), 1.0 - 1.0 / ratio, checks)
 }
 
-impl Printed {
-    /// Rows of the time of two views one by one by that of both at once, given as a ratio. With
-    /// nothing saved it is one.
-    fn time(self, what: &str, ratio: f64) -> [Row; 2] {
-        let saved = 100.0 * (1.0 - 1.0 / ratio);
-        let speed_up = 1.0 / (1.0 - self.saved / 100.0);
-        [
-            Row::new(format!("{what}: time saved"), saved, 1, Check::Trend)
-                .printed(self.saved)
-                .unit("%"),
-            Row::new(format!("{what}: speed-up"), ratio, 2, Check::AtLeast(1.0))
-                .printed(self.speed_up)
-                .corrected(speed_up, SPEED_UP),
-        ]
-    }
+/// Part of the work that is saved, in per cent.
+fn saved(what: String, twice: u64, both: u64, check: Check) -> Row {
+    Row::new(what, 100.0 * (1.0 - both as f64 / twice as f64), 1, check).unit("%")
+}
 
-    /// A row of a count that has to be saved at least as the authors' time. It is a part of the work:
-    /// pixels are the same either way.
-    fn count(self, what: &str, twice: u64, both: u64) -> Row {
-        let saved = 100.0 * (1.0 - both as f64 / twice as f64);
-        Row::new(what, saved, 1, Check::AtLeast(self.saved)).unit("%")
-    }
+/// A row of a part of the work that has to be saved at least as the authors' time.
+fn part(printed: &Printed, what: &str, twice: u64, both: u64) -> Row {
+    saved(format!("{what} saved"), twice, both, Check::AtLeast(printed.i))
+}
+
+/// A row of all that is counted. Pixels are the same either way, so it falls short of its parts, and of
+/// the authors' time where they are most of it.
+fn total(what: &str, twice: &Work, both: &Work) -> Row {
+    let all = |work: &Work| {
+        work.operations.all()
+            + work.edge_updates
+            + work.interpolations
+            + work.depth_tests
+            + work.pixels_written
+    };
+    saved(
+        format!("{what}: all work that is counted, saved"),
+        all(twice),
+        all(both),
+        Check::AtLeast(0.0),
+    )
 }
 
 /// A row that is 0 where both ways see the same.
@@ -109,15 +111,15 @@ fn differing(what: &str, pixels: usize) -> Row {
 
 /// BSP tree, two traversals, against BSP tree and one z-buffer, one traversal.
 fn trees() -> Result<Table, StudyError> {
-    let printed = Printed { saved: 17.0, speed_up: 1.33 };
     let mut rows = Vec::new();
     for polygons in [144, 480, 960] {
         let scene = boxes(polygons / TRIANGLES, SIZE[0], SIZE[1])?;
         let found = Traversals::of(&geometry(&scene, Cull::None)?)?;
         let name = format!("{polygons} polygons");
-        rows.extend(printed.time(&name, found.ratio));
+        rows.extend(time_rows(&BSP, &name, found.ratio));
         let (twice, once) = (found.twice.edge_updates, found.once.edge_updates);
-        rows.push(printed.count(&format!("{name}: steps of edges saved"), twice, once));
+        rows.push(part(&BSP, &format!("{name}: steps of edges"), twice, once));
+        rows.push(total(&name, &found.twice, &found.once));
         let what = format!("{name}: pieces a polygon");
         rows.push(Row::new(what, found.pieces, 2, Check::Trend));
         rows.push(found.tests(&name));
@@ -126,11 +128,13 @@ fn trees() -> Result<Table, StudyError> {
         let what = format!("{name}, left view: pixels that differ");
         rows.push(Row::new(what, found.different[0] as f64, 0, Check::AtMost(5.0)));
     }
-    // The other extreme: most planes pass between the eyes.
+    // The other extreme: most planes pass between the eyes. A tenth of the pixels is tested, which costs
+    // several times as much as painting them in order, and few edges are there to be shared.
     let scene = scene::open("exclusive", Some(SIZE), None)?;
     let found = Traversals::of(&geometry(&scene, Cull::None)?)?;
     rows.push(found.tests("exclusive"));
-    rows.push(Row::new("exclusive: ratio of times", found.ratio, 2, Check::Trend));
+    let what = "exclusive, planes between the eyes, not of the authors' kind: time, III";
+    rows.push(Row::new(what, found.ratio, 2, Check::Trend));
     let title = format!("BSP/z-buffer compared to BSP (Table 1), views of {}", size(SIZE));
     Ok(Table { title, rows })
 }
@@ -169,7 +173,7 @@ impl Traversals {
         Ok(Traversals {
             twice,
             once,
-            ratio: time.median,
+            ratio: time.of_shortest(),
             pieces: tree.pieces() as f64 / surfaces.opaque.len() as f64,
             different: [0, 1].map(|n: usize| different(&alone[n].item, &both[n].item)),
         })
@@ -185,7 +189,6 @@ impl Traversals {
 
 /// Scan-line hidden surfaces, flat and with Gouraud shading.
 fn scan_lines(village: &Scene, model: &Model) -> Result<Table, StudyError> {
-    let printed = Printed { saved: 12.0, speed_up: 1.24 };
     let geometry = geometry(village, Cull::Back)?;
     let surfaces = surfaces(&geometry)?;
     let count = |run: &dyn Fn(&mut Work)| {
@@ -209,18 +212,21 @@ fn scan_lines(village: &Scene, model: &Model) -> Result<Table, StudyError> {
         },
         || scan_line::draw_items::<f64, 2>(&surfaces, Eye::BOTH, &mut items, &mut Unmetered),
     );
-    let mut rows = printed.time("hidden surfaces", time.median).to_vec();
-    rows.push(printed.count(
-        "hidden surfaces: updates of edge lists saved",
+    let mut rows = time_rows(&SCAN_LINE, "hidden surfaces", time.of_shortest()).to_vec();
+    rows.push(part(
+        &SCAN_LINE,
+        "hidden surfaces: updates of edge lists",
         twice.edge_updates,
         once.edge_updates,
     ));
     let edges = |work: &Work| work.interpolations - work.depth_tests;
-    rows.push(printed.count(
-        "hidden surfaces: interpolations along edges saved",
+    rows.push(part(
+        &SCAN_LINE,
+        "hidden surfaces: interpolations along edges",
         edges(&twice),
         edges(&once),
     ));
+    rows.push(total("hidden surfaces", &twice, &once));
     rows.push(differing("hidden surfaces", pixels));
 
     // Lit and projected beforehand.
@@ -236,17 +242,19 @@ fn scan_lines(village: &Scene, model: &Model) -> Result<Table, StudyError> {
         || model.scan::<f64, 2>(Eye::BOTH, &vertices, &mut views, &mut Unmetered),
     );
     // Only the percentage is printed, in the text.
-    let text = Printed { saved: 17.0, speed_up: 1.0 };
-    let [saved, speed_up] = text.time("with Gouraud shading", time.median);
-    rows.extend([saved, Row { printed: None, corrected: None, erratum: None, ..speed_up }]);
+    let what = "with Gouraud shading: time";
+    let part = 100.0 * (1.0 - 1.0 / time.of_shortest());
+    let row = Row::new(format!("{what}, I"), part, 0, Check::Trend).printed(17.0);
+    rows.push(row.unit("%"));
+    let check = at_least(least_speed_up(0.17));
+    rows.push(Row::new(format!("{what}, III"), time.of_shortest(), 2, check).expected(1.2));
     let title = format!("Scan-line hidden surface (Table 1), village, views of {}", size(SIZE));
     Ok(Table { title, rows })
 }
 
-/// The simple renderer.
-fn renderer(model: &Model) -> Result<Table, StudyError> {
-    let printed = Printed { saved: 18.8, speed_up: 1.38 };
-    let (mut twice, mut once) = (Work::default(), Work::default());
+/// The simple renderer's work for two views one by one and for both at once, and pixels that differ.
+fn draw(model: &Model) -> ([Work; 2], usize) {
+    let [mut twice, mut once] = [Work::default(); 2];
     let [mut left, mut right] = [(); 2].map(|()| model.views::<1>());
     let mut both = model.views::<2>();
     let ((), operations) = counted(|| {
@@ -258,26 +266,38 @@ fn renderer(model: &Model) -> Result<Table, StudyError> {
     once.operations = operations;
     let pixels = different(&left.colours[0], &both.colours[0])
         + different(&right.colours[0], &both.colours[1]);
+    ([twice, once], pixels)
+}
+
+/// The simple renderer.
+fn renderer(model: &Model) -> Result<Table, StudyError> {
+    let ([twice, once], pixels) = draw(model);
     let mut rows = vec![
         Row::new("triangles", model.triangles() as f64, 0, Check::Within(0.05)).printed(1100.0)
     ];
-    rows.extend(printed.time("village", time(model)));
-    rows.push(printed.count(
-        "village: arithmetic of projection, edges and spans saved",
+    rows.extend(time_rows(&VILLAGE, "village", time(model)));
+    rows.push(part(
+        &VILLAGE,
+        "village: arithmetic of projection, edges and spans",
         twice.operations.arithmetic(),
         once.operations.arithmetic(),
     ));
-    rows.push(printed.count(
-        "village: updates of edge lists saved",
+    rows.push(part(
+        &VILLAGE,
+        "village: updates of edge lists",
         twice.edge_updates,
         once.edge_updates,
     ));
-    let values = 100.0 * (1.0 - once.interpolations as f64 / twice.interpolations as f64);
     let what = "village: interpolations saved, those of pixels included";
-    rows.push(Row::new(what, values, 1, Check::Trend).unit("%"));
+    rows.push(saved(what.into(), twice.interpolations, once.interpolations, Check::Trend));
+    rows.push(total("village", &twice, &once));
     rows.push(differing("village", pixels));
     let large = Model::new(&scene::open("village", Some(LARGE), None)?, &formats())?;
-    rows.extend(printed.time(&format!("village, {}", size(LARGE)), time(&large)));
+    let what = format!("village, {}", size(LARGE));
+    rows.extend(time_rows(&VILLAGE, &what, time(&large)));
+    let ([twice, once], pixels) = draw(&large);
+    rows.push(total(&what, &twice, &once));
+    rows.push(differing(&what, pixels));
     let title = format!("Simple renderer (Table 1), village, views of {}", size(SIZE));
     Ok(Table { title, rows })
 }
@@ -294,7 +314,7 @@ fn time(model: &Model) -> f64 {
         },
         || model.draw::<f64, 2>(Eye::BOTH, &mut both, &mut Unmetered),
     );
-    time.median
+    time.of_shortest()
 }
 
 /// How many elements differ.
@@ -304,24 +324,4 @@ fn different(a: &[u32], b: &[u32]) -> usize {
 
 fn size([width, height]: [u32; 2]) -> String {
     format!("{width} × {height}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::Verdict;
-
-    /// All figures that do not depend on the machine hold.
-    #[test]
-    fn counts_and_pixels_hold() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let report = run(folder.path()).expect("it can be run");
-        assert!(report.files.iter().all(|file| file.exists()));
-        report.tables.iter().for_each(|table| println!("{table}"));
-        let rows: Vec<&Row> = report.tables.iter().flat_map(|table| &table.rows).collect();
-        assert!(rows.len() > 25);
-        for row in rows.iter().filter(|row| !row.what.contains("speed-up")) {
-            assert!(row.verdict() != Verdict::Differs, "{}: {}", row.what, row.here);
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use super::*;
 use wheatstone_golden::picture::write_file;
 use wheatstone_golden::setup::Arrangement;
-use wheatstone_studies::compare::{compare, json, table, Method};
+use wheatstone_studies::compare::{compare, json, table, Grouped, Method};
 use wheatstone_studies::prepared::Prepared;
 
 #[derive(Debug, Args)]
@@ -25,8 +25,8 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
         let message = "--param display, displays: views are compared each on its own display";
         return Err(Failure::Input(message.into()));
     }
-    let name = args.common.scene.as_deref().unwrap_or("room");
-    let scene = args.common.open(name, args.common.size)?;
+    let name = args.common.view.scene.as_deref().unwrap_or("room");
+    let scene = args.common.open(name, args.common.view.size)?;
     let geometry = args.common.geometry_of(&scene, &settings)?;
     if let Some(out) = &args.out {
         std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;
@@ -37,8 +37,12 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     let outcomes = compare(&prepared, args.out.as_deref(), tell);
     drop(spinner);
     let outcomes = outcomes?;
-    let Geometry { width, height, polygons, .. } = &prepared.geometry;
-    say!("{name}, {width}x{height}, {} polygons: the second view", polygons.len());
+    let Geometry { width, height, polygons: drawn, .. } = &prepared.geometry;
+    let meshes = &prepared.scene.meshes;
+    let polygons: usize = meshes.iter().map(|mesh| mesh.id_count()).sum();
+    let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
+    let [a, b, c] = [polygons, triangles, drawn.len()].map(|n| Grouped(n as u64));
+    say!("{name}, {width}x{height}: the second view of {a} polygons in {b} triangles, {c} drawn");
     say!("{}", table(&outcomes));
     say!("time: of the second view, direct rendering's is 1; that of SAM is its golden model's");
     for file in outcomes.iter().filter_map(|o| o.result.as_ref().ok()?.file.as_ref()) {
@@ -50,7 +54,9 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
             "scene": name,
             "width": width,
             "height": height,
-            "polygons": polygons.len(),
+            "polygons": polygons,
+            "triangles": triangles,
+            "drawn": drawn.len(),
             "methods": json(&outcomes),
         });
         write_file(file, format!("{content:#}\n").as_bytes())?;

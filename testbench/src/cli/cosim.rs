@@ -55,6 +55,9 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
     let targets = targets(args)?;
     let scenes = scene_names(args, &targets, &settings)?;
+    if scenes.is_empty() {
+        args.common.view.refuse_eyes()?;
+    }
     let out = args.out.clone().unwrap_or_else(|| output_folder("cosim"));
     let _tidy = Tidy::new(&out);
     let rtl = args.stimulus.rtl()?;
@@ -73,7 +76,7 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
         words: words(args),
         case: args.case.clone(),
         scenes: scenes.collect(),
-        scenes_only: args.common.scene.is_some(),
+        scenes_only: args.common.view.scene.is_some(),
         seed: args.stimulus.seed,
         beats: args.stimulus.beats,
         jobs: args.jobs.map_or(processors, usize::from),
@@ -129,7 +132,7 @@ fn write(args: &CosimArgs, entries: &[Entry], command: &str, out: &Path) -> Resu
 
 /// What is to be run.
 fn targets(args: &CosimArgs) -> Result<Vec<Target>, Failure> {
-    let has_scene = args.common.scene.is_some();
+    let has_scene = args.common.view.scene.is_some();
     if args.targets.is_empty() {
         return Ok(Target::ALL.into_iter().filter(|t| t.is_system() || !has_scene).collect());
     }
@@ -148,13 +151,13 @@ fn scene_names<'a>(
     targets: &[Target],
     settings: &Settings,
 ) -> Result<Vec<&'a str>, Failure> {
-    let mut scenes: Vec<&str> = match &args.common.scene {
+    let mut scenes: Vec<&str> = match &args.common.view.scene {
         Some(name) => vec![name],
         None if targets.iter().any(|t| t.is_system()) => builtin_names().collect(),
         None => Vec::new(),
     };
     let Some(case) = &args.case else { return Ok(scenes) };
-    let others = match args.common.scene {
+    let others = match args.common.view.scene {
         Some(_) => Vec::new(),
         None => regression::case_names(targets, settings),
     };
@@ -187,8 +190,8 @@ fn load(
     settings: &Settings,
 ) -> Result<Vec<(String, Geometry)>, Failure> {
     let load = |&name: &&str| {
-        let small = args.common.scene.is_none() && !SCENES_AT_FULL_SIZE.contains(&name);
-        let size = args.common.size.or(small.then_some(SMALL));
+        let small = args.common.view.scene.is_none() && !SCENES_AT_FULL_SIZE.contains(&name);
+        let size = args.common.view.size.or(small.then_some(SMALL));
         Ok((name.to_owned(), args.common.geometry(name, size, settings)?))
     };
     scenes.iter().map(load).collect()

@@ -25,6 +25,7 @@ mod generate;
 mod info;
 mod render;
 mod reproduce;
+mod rig;
 mod synth;
 mod vectors;
 mod waves;
@@ -53,6 +54,7 @@ use wheatstone_golden::scene::{self, builtin, Cull, Geometry, Scene, SceneError}
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
+use wheatstone_studies::volume::Volume;
 use wheatstone_studies::StudyError;
 
 /// Everything worked and was equal.
@@ -80,7 +82,8 @@ const EXAMPLES: &str = "Examples:
   wheatstone cosim filter --param filter=2          one unit, another build
   wheatstone vectors filter --out packs             vectors for a board or another simulator
   wheatstone waves hybrid --pixel right,320,200     waveforms around one pixel
-  wheatstone render --method hybrid --out pictures --stereo anaglyph";
+  wheatstone render --method hybrid --out pictures --stereo anaglyph
+  wheatstone rig --projection piecewise             at what distance what is perceived";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -96,6 +99,8 @@ enum Command {
     Render(render::RenderArgs),
     /// Make the second view in every way and compare work, time and errors
     Compare(compare::CompareArgs),
+    /// Tell what a rig shows: eyes and screen, limits, distance map, fields of view
+    Rig(rig::RigArgs),
     /// Compute the publications' tables and figures anew
     Reproduce(reproduce::ReproduceArgs),
     /// Measure gates, LUTs and clock of targets, and compare with the committed record
@@ -120,6 +125,19 @@ struct Common {
     /// Change one parameter (see `wheatstone list`); may be repeated
     #[arg(long = "param", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
+    #[command(flatten)]
+    view: View,
+    /// Which faces to leave out
+    #[arg(long, value_enum, default_value = "none")]
+    cull: CullChoice,
+    /// Draw the edges of the polygons, one pixel thick, instead of the polygons
+    #[arg(long)]
+    wire: bool,
+}
+
+/// What is looked at, and from where.
+#[derive(Clone, Debug, Args)]
+struct View {
     /// Built-in scene, or a file ending in .obj, .json, .png, .txt or .grid
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
@@ -133,12 +151,6 @@ struct Common {
     /// or two-centres]
     #[arg(long, value_name = "NAME", value_parser = parse_projection)]
     projection: Option<Kind>,
-    /// Which faces to leave out
-    #[arg(long, value_enum, default_value = "none")]
-    cull: CullChoice,
-    /// Draw the edges of the polygons, one pixel thick, instead of the polygons
-    #[arg(long)]
-    wire: bool,
 }
 
 /// Options of the commands that simulate or make vectors.
@@ -233,6 +245,7 @@ pub fn main() -> ExitCode {
         Command::Waves(args) => waves::run(args),
         Command::Render(args) => render::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Rig(args) => rig::run(args),
         Command::Reproduce(args) => reproduce::run(args),
         Command::Synth(args) => synth::run(args),
         Command::Baseline(args) => baseline::run(args),
@@ -252,9 +265,12 @@ impl Common {
         Ok(Settings::new(&self.config, &self.parameters)?)
     }
 
-    /// A scene from the eyes that the command line chose.
+    /// A scene from the eyes that the command line chose; tells what the projection leaves out of it.
     fn open(&self, name: &str, size: Option<[u32; 2]>) -> Result<Scene, Failure> {
-        let scene = scene::open_projected(name, size, self.rig.as_deref(), self.projection)?;
+        let scene = self.view.open(name, size)?;
+        for warning in Volume::of(&scene, None)?.warnings() {
+            tell!("warning: {name}: {warning} (see wheatstone rig)");
+        }
         Ok(if self.wire { wire_frame(&scene)? } else { scene })
     }
 
@@ -285,16 +301,38 @@ impl Common {
             words.extend(option("--config", &self.config));
         }
         words.extend(self.parameters.iter().flat_map(|p| option("--param", p)));
+        words.extend(self.view.words());
+        words.extend(choice("--cull", self.cull, CullChoice::None));
+        if self.wire {
+            words.push("--wire".into());
+        }
+        words
+    }
+}
+
+impl View {
+    /// A scene from these eyes.
+    fn open(&self, name: &str, size: Option<[u32; 2]>) -> Result<Scene, SceneError> {
+        scene::open_projected(name, size, self.rig.as_deref(), self.projection)
+    }
+
+    /// Refuses eyes where no scene is drawn that they could see.
+    fn refuse_eyes(&self) -> Result<(), Failure> {
+        let options = [("--rig", self.rig.is_some()), ("--projection", self.projection.is_some())];
+        options.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(option, _)| {
+            Err(Failure::Input(format!("{option}: no scene is drawn; name one with --scene")))
+        })
+    }
+
+    /// The options as words of a command line.
+    fn words(&self) -> Vec<String> {
+        let mut words = Vec::new();
         words.extend(self.scene.iter().flat_map(|scene| option("--scene", scene)));
         if let Some([width, height]) = self.size {
             words.extend(option("--size", format!("{width}x{height}")));
         }
         words.extend(self.rig.iter().flat_map(|rig| option("--rig", rig.display())));
         words.extend(self.projection.iter().flat_map(|kind| option("--projection", kind.name())));
-        words.extend(choice("--cull", self.cull, CullChoice::None));
-        if self.wire {
-            words.push("--wire".into());
-        }
         words
     }
 }

@@ -54,8 +54,8 @@ fn parse_dpi(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
-    let name = args.common.scene.as_deref().unwrap_or("teapot");
-    let scene = args.common.open(name, args.common.size)?;
+    let name = args.common.view.scene.as_deref().unwrap_or("teapot");
+    let scene = args.common.open(name, args.common.view.size)?;
     let geometry = args.common.geometry_of(&scene, &settings)?;
     // Before the work, so that a folder that cannot be made costs none.
     std::fs::create_dir_all(&args.out)

@@ -34,6 +34,9 @@ pub(super) struct CheckArgs {
 
 pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
+    if args.common.view.scene.is_none() {
+        args.common.view.refuse_eyes()?;
+    }
     let targets = if args.targets.is_empty() { Target::ALL.to_vec() } else { args.targets.clone() };
     let rtl = args.stimulus.rtl()?;
     let (seed, beats) = (args.stimulus.seed, args.stimulus.beats.unwrap_or(BEATS) as usize);
@@ -61,10 +64,10 @@ fn case(
     seed: u64,
     beats: usize,
 ) -> Result<Case, Failure> {
-    let Some(name) = &args.common.scene else {
+    let Some(name) = &args.common.view.scene else {
         return Ok(cases::random(target, &settings.config, seed, beats));
     };
-    let geometry = args.common.geometry(name, args.common.size, settings)?;
+    let geometry = args.common.geometry(name, args.common.view.size, settings)?;
     let job = job(settings, &geometry, settings.options);
     scene_head(target, &job, name, beats)
         .ok_or_else(|| Failure::Input(format!("--scene {name}: nothing of it is drawn")))

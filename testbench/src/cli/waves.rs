@@ -57,11 +57,12 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
         (None, Some(id)) => Focus::Polygon(id),
         (None, None) => Focus::Start,
     };
-    let needs_scene = focus != Focus::Start || args.common.scene.is_some();
-    let name = args.common.scene.as_deref().unwrap_or("teapot");
+    let needs_scene = focus != Focus::Start || args.common.view.scene.is_some();
+    let name = args.common.view.scene.as_deref().unwrap_or("teapot");
     let geometry = if needs_scene {
-        Some(args.common.geometry(name, args.common.size, &settings)?)
+        Some(args.common.geometry(name, args.common.view.size, &settings)?)
     } else {
+        args.common.view.refuse_eyes()?;
         None
     };
     let job = geometry.as_ref().map(|geometry| job(&settings, geometry, settings.options));

@@ -7,6 +7,7 @@ use crate::formats::Eye;
 use crate::setup::{Attributes, Polygon};
 use crate::visibility::Surfaces;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// Polygons of a cell that are tried as its root.
 const CANDIDATES: usize = 16;
@@ -14,6 +15,52 @@ const CANDIDATES: usize = 16;
 const SAMPLES: usize = 48;
 /// A polygon cut counts as much as this many that are on one side too many.
 const COST_OF_CUT: usize = 16;
+/// Most pieces of a cell that is never divided by a line. Where no plane divides the rest, as of a
+/// convex body, a tree is as deep as it has polygons, which takes steps by their square.
+const SMALL_CELL: usize = 256;
+/// Score from which a line is tried instead of a root: as of one that has three quarters of the
+/// sample more on the one side than on the other.
+const POOR: usize = 36;
+/// Polygons that are looked at to place a line.
+const LINE_SAMPLES: usize = 255;
+/// A line may cross one in so many of them.
+const MOST_CROSSED: usize = 4;
+
+/// Along what a view is divided.
+#[derive(Clone, Copy, Debug)]
+enum Axis {
+    Rows,
+    Columns,
+}
+
+impl Axis {
+    const BOTH: [Axis; 2] = [Axis::Rows, Axis::Columns];
+
+    fn of(self, part: &Part) -> &Range<i32> {
+        match self {
+            Axis::Rows => &part.rows,
+            Axis::Columns => &part.columns,
+        }
+    }
+
+    /// Whether what the eyes see of a piece is before a row or column of each, crosses it, or is
+    /// behind it.
+    fn place(self, parts: &[Option<Part>; 2], at: [i32; 2]) -> usize {
+        let found = parts.iter().zip(at).filter_map(|(part, at)| {
+            let range = self.of(part.as_ref()?);
+            Some(usize::from(range.end > at) + usize::from(range.start >= at))
+        });
+        found.reduce(|a, b| if a == b { a } else { 1 }).unwrap_or(1)
+    }
+
+    /// The line before a row or a column.
+    fn line(self, at: i32, subpixel_bits: u32) -> Side {
+        match self {
+            Axis::Rows => Side::of_place([0, 1], at, subpixel_bits),
+            Axis::Columns => Side::of_place([1, 0], at, subpixel_bits),
+        }
+    }
+}
 
 pub(super) struct Builder<'a> {
     polygons: &'a [Polygon],
@@ -65,7 +112,13 @@ impl<'a> Builder<'a> {
     /// Adds a node for the root of some pieces; the others, on its negative and positive side.
     fn divide(&mut self, mut pieces: Vec<Piece>) -> [Vec<Piece>; 2] {
         let present = [0, 1].map(|view| pieces.iter().any(|piece| piece.views[view].is_some()));
-        let Some(root) = self.root(&pieces, present) else {
+        let root = self.root(&pieces, present);
+        let poor = pieces.len() > SMALL_CELL && root.is_none_or(|(_, score)| score >= POOR);
+        if let Some(line) = poor.then(|| self.line(&pieces)).flatten() {
+            self.nodes.push(Node::new(NONE, [None, None], [Ordering::Equal; 2]));
+            return self.parted(pieces, |builder, piece| builder.cut_by_line(piece, &line));
+        }
+        let Some((root, _)) = root else {
             // No plane divides both views, so each has a tree of its own.
             self.nodes.push(Node::new(NONE, [None, None], [Ordering::Equal; 2]));
             return apart(pieces);
@@ -77,10 +130,18 @@ impl<'a> Builder<'a> {
             _ => Ordering::Equal,
         });
         self.nodes.push(Node::new(polygon, views, far));
+        self.parted(pieces, |builder, piece| builder.cut(piece, polygon))
+    }
+
+    /// The parts of some pieces on either side.
+    fn parted(
+        &self,
+        pieces: Vec<Piece>,
+        cut: impl Fn(&Self, Piece) -> [Option<Piece>; 2],
+    ) -> [Vec<Piece>; 2] {
         let mut sides = [Vec::new(), Vec::new()];
         for piece in pieces {
-            let parts = self.cut(piece, polygon);
-            for (side, part) in sides.iter_mut().zip(parts) {
+            for (side, part) in sides.iter_mut().zip(cut(self, piece)) {
                 side.extend(part);
             }
         }
@@ -126,23 +187,37 @@ impl<'a> Builder<'a> {
     /// The parts of a piece on the negative and the positive side of a polygon's plane.
     fn cut(&self, piece: Piece, root: u32) -> [Option<Piece>; 2] {
         let planes = &self.planes[root as usize];
+        let number = piece.polygon;
+        // In the plane: of equal depths the polygon that comes first is seen.
+        let in_plane = |view: usize| {
+            let positive_is_far = planes[view].is_some_and(|plane| plane.far_side().is_gt());
+            usize::from(positive_is_far == (number > root))
+        };
+        self.cut_along(piece, |view| self.side(number, view, planes), in_plane)
+    }
+
+    /// The parts of a piece above or left of a line in each view, and on the other side of it.
+    fn cut_by_line(&self, piece: Piece, line: &[Side; 2]) -> [Option<Piece>; 2] {
+        self.cut_along(piece, |view| Some(line[view]), |_| 1)
+    }
+
+    /// The parts of a piece where the function of each view is negative, and where it is not;
+    /// `in_plane` tells where to put what lies in the plane wholly.
+    fn cut_along(
+        &self,
+        piece: Piece,
+        side: impl Fn(usize) -> Option<Side>,
+        in_plane: impl Fn(usize) -> usize,
+    ) -> [Option<Piece>; 2] {
         let polygon = &self.polygons[piece.polygon as usize];
         let mut views: [[Option<Region>; 2]; 2] = Default::default();
         for (view, region) in piece.views.into_iter().enumerate() {
-            let (Some(region), Some(side)) = (region, self.side(piece.polygon, view, planes))
-            else {
-                continue;
-            };
+            let (Some(region), Some(side)) = (region, side(view)) else { continue };
             match self.windows[view].sides(polygon, &region, &side) {
                 [true, true] => views[view] = self.windows[view].cut(polygon, &region, &side),
                 [true, false] => views[view][0] = Some(region),
                 [false, true] => views[view][1] = Some(region),
-                // In the plane: of equal depths the polygon that comes first is seen.
-                [false, false] => {
-                    let positive_is_far = planes[view].is_some_and(|p| p.far_side().is_gt());
-                    let far = piece.polygon > root;
-                    views[view][usize::from(positive_is_far == far)] = Some(region);
-                }
+                [false, false] => views[view][in_plane(view)] = Some(region),
             }
         }
         let [[left_low, left_high], [right_low, right_high]] = views;
@@ -152,16 +227,56 @@ impl<'a> Builder<'a> {
         })
     }
 
+    /// A row or a column of each view that divides a cell, where most pieces lie on one side of it. What is on different sides of it hides nothing of each other, in whatever order:
+    /// it is the image of a plane through the eye.
+    fn line(&self, pieces: &[Piece]) -> Option<[Side; 2]> {
+        let sample: Vec<[Option<Part>; 2]> =
+            spaced(pieces.len(), LINE_SAMPLES).map(|n| self.parts(&pieces[n])).collect();
+        let lines = Axis::BOTH.map(|axis| {
+            let at = [0, 1].map(|view| {
+                let ranges = sample.iter().filter_map(|parts| parts[view].as_ref());
+                let mut starts: Vec<i32> = ranges.map(|part| axis.of(part).start).collect();
+                starts.sort_unstable();
+                starts.get(starts.len() / 2).copied().unwrap_or_default()
+            });
+            let mut counts = [0; 3];
+            for parts in &sample {
+                counts[axis.place(parts, at)] += 1;
+            }
+            (counts, axis, at)
+        });
+        // Something on either side, or nothing would be gained.
+        let gains = |([low, crossed, high], ..): &([usize; 3], Axis, [i32; 2])| {
+            *low > 0 && *high > 0 && crossed * MOST_CROSSED < sample.len()
+        };
+        let best = lines.into_iter().filter(gains).min_by_key(|([_, crossed, _], ..)| *crossed);
+        let bits = self.windows[0].formats.subpixel_bits;
+        best.map(|(_, axis, at)| at.map(|at| axis.line(at, bits)))
+    }
+
+    /// Rectangles around what each eye sees of a piece.
+    fn parts(&self, piece: &Piece) -> [Option<Part>; 2] {
+        let polygon = &self.polygons[piece.polygon as usize];
+        [0, 1].map(|view| {
+            let region = piece.views[view].as_ref()?;
+            let Part { columns, rows } = self.windows[view].part(polygon, region);
+            let limits =
+                region.limits.iter().copied().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+            let [first, end] = limits.unwrap_or([i32::MIN, i32::MAX]);
+            Some(Part { columns: columns.start.max(first)..columns.end.min(end), rows })
+        })
+    }
+
     /// On which side of a plane a polygon is in a view.
     fn side(&self, polygon: u32, view: usize, planes: &[Option<Plane>; 2]) -> Option<Side> {
         Some(planes[view]?.side_of(&self.planes[polygon as usize][view]?))
     }
 
-    /// Position of the piece that is to be the root: of a few evenly spaced candidates the one
+    /// Position of the piece that is to be the root, and its score: of a few evenly spaced candidates the one
     /// that cuts fewest of a sample and divides it most evenly. Planes that the eyes are on
     /// different sides of come last: above them there is one order for both views. None if no
     /// plane is known in all views that are present.
-    fn root(&self, pieces: &[Piece], present: [bool; 2]) -> Option<usize> {
+    fn root(&self, pieces: &[Piece], present: [bool; 2]) -> Option<(usize, usize)> {
         let known = |piece: &Piece| {
             let planes = &self.planes[piece.polygon as usize];
             [0, 1].iter().all(|&view| !present[view] || planes[view].is_some())
@@ -174,7 +289,7 @@ impl<'a> Builder<'a> {
         let best: Vec<usize> = all.iter().copied().filter(|&n| agreed(&pieces[n])).collect();
         let candidates = if best.is_empty() { all } else { best };
         let candidates = spaced(candidates.len(), CANDIDATES).map(|n| candidates[n]);
-        candidates.min_by_key(|&n| self.score(pieces, n))
+        candidates.map(|n| (n, self.score(pieces, n))).min_by_key(|&(_, score)| score)
     }
 
     /// How bad a root is.

@@ -39,7 +39,8 @@ pub struct Tree {
 #[derive(Clone, Debug)]
 struct Node {
     /// The polygon whose plane divides the rest, and what each eye sees of this piece of it.
-    /// Without a polygon, `sides` are what the left and what the right eye sees.
+    /// Without a polygon, `sides` are what the left and what the right eye sees, or what lies on
+    /// either side of a row or a column.
     polygon: u32,
     views: [Option<Region>; 2],
     /// If the eyes are on different sides of the plane, and the left one sees things here that may
@@ -91,7 +92,7 @@ impl Tree {
     ///
     /// The root of each cell is, of up to 16 evenly spaced polygons, the one that cuts fewest of a
     /// sample of 48 others and divides them most evenly; planes that pass between the eyes come
-    /// last.
+    /// last. Large cells that none of them divides well are divided by a row or a column of the views.
     pub fn new(surfaces: &Surfaces) -> Tree {
         Builder::new(surfaces).build()
     }
@@ -99,6 +100,17 @@ impl Tree {
     /// Pieces that the polygons were cut into.
     pub fn pieces(&self) -> usize {
         self.nodes.iter().filter(|node| node.polygon != NONE).count()
+    }
+
+    /// Nodes from the root down to the lowest, both counted.
+    pub fn height(&self) -> usize {
+        let mut heights = vec![1; self.nodes.len()];
+        for (n, node) in self.nodes.iter().enumerate() {
+            for side in node.sides.into_iter().filter(|&side| side != NONE) {
+                heights[side as usize] = heights[n] + 1;
+            }
+        }
+        heights.into_iter().max().unwrap_or(0)
     }
 
     /// Planes between the eyes below which the order for the left eye may be another.

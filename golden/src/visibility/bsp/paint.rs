@@ -3,12 +3,13 @@
 use super::piece::Region;
 use super::scan::Scan;
 use super::{hull, Node, Part, Tree, NONE};
+use crate::cost;
 use crate::formats::{Eye, FRACTION_BITS};
 use crate::setup::Linear;
 use crate::visibility::depths::keep_nearer;
 use crate::visibility::scan_line::Line;
 use crate::visibility::{Items, Surfaces};
-use crate::work::Meter;
+use crate::work::{Meter, Operations};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -88,6 +89,7 @@ pub fn draw<const EYES: usize>(
         eyes,
         canvas: Canvas { items, z_buffer, meter },
         contested: false,
+        level: surfaces.level().is_ok(),
         scan: Scan::new(),
         scan_one: Scan::new(),
     };
@@ -123,6 +125,8 @@ struct Painter<'a, M, const EYES: usize> {
     canvas: Canvas<'a, M, EYES>,
     /// Whether all but the last view are to be resolved by depth.
     contested: bool,
+    /// Whether the views share their rows.
+    level: bool,
     scan: Scan<EYES>,
     scan_one: Scan<1>,
 }
@@ -135,10 +139,10 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
         far.into_iter().rev().find(|far| far.is_ne()).unwrap_or(Ordering::Equal)
     }
 
-    /// Paints the polygon of a node in all views at once. If not all eyes see this piece of it, it
-    /// is converted for the one that does.
+    /// Paints the polygon of a node: in all views at once if all eyes see this piece of it and share
+    /// its rows, or else in each that does.
     fn node(&mut self, node: &Node) {
-        let Painter { surfaces, eyes, canvas, contested, scan, scan_one } = self;
+        let Painter { surfaces, eyes, canvas, contested, level, scan, scan_one } = self;
         let regions = eyes.map(|eye| node.views[eye as usize].as_ref());
         let all_rows = regions.iter().flatten().map(|region| region.rows.clone());
         let Some(rows) = all_rows.reduce(|a, b| hull(&a, &b)) else { return };
@@ -147,23 +151,38 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
         let polygon = &surfaces.opaque[node.polygon as usize];
         let formats = &surfaces.formats;
         let depth = node.depth.as_ref().filter(|_| *contested);
-        let converted = if seen == EYES {
-            scan.rows(polygon, *eyes, &rows, formats, |row, spans| {
+        // An edge and the inverse of its height, for all views or for each.
+        let edge = |views| cost::edge(views) + Operations::new(0, 0, 1, 0);
+        let corners = polygon.vertices.len() as u64;
+        let shared = seen == EYES && *level;
+        let edges = if shared { edge(EYES) } else { edge(1) * seen as u64 } * corners;
+        let steps = if shared {
+            let converted = scan.rows(polygon, *eyes, &rows, formats, |row, spans| {
                 for view in 0..EYES {
                     let depth = depth.filter(|_| view + 1 < EYES);
                     canvas.draw(node.polygon, view, regions[view], row, spans[view], depth);
                 }
-            })
+            });
+            [2 * converted, 2 * EYES * converted]
         } else {
-            let view = usize::from(regions[0].is_none());
-            let depth = depth.filter(|_| view + 1 < EYES);
-            scan_one.rows(polygon, [eyes[view]], &rows, formats, |row, [span]| {
-                canvas.draw(node.polygon, view, regions[view], row, span, depth);
-            })
+            let mut steps = 0;
+            for (view, region) in regions.into_iter().enumerate() {
+                let Some(Region { rows, .. }) = region else { continue };
+                let depth = depth.filter(|_| view + 1 < EYES);
+                let converted =
+                    scan_one.rows(polygon, [eyes[view]], rows, formats, |row, [span]| {
+                        canvas.draw(node.polygon, view, region, row, span, depth);
+                    });
+                steps += 2 * converted;
+            }
+            [steps; 2]
         };
         canvas.meter.note(|work| {
-            work.edge_updates += 2 * converted as u64;
-            work.interpolations += (2 * seen * converted) as u64;
+            work.edge_updates += steps[0] as u64;
+            work.interpolations += steps[1] as u64;
+            // x of two edges is stepped for each row of a view, and compared.
+            let rows = steps[1] as u64 / 2;
+            work.fixed_point += Operations::new(2, 0, 0, 1) * rows + edges;
         });
     }
 }
@@ -193,11 +212,17 @@ impl<M: Meter, const EYES: usize> Canvas<'_, M, EYES> {
         if first >= end {
             return;
         }
-        self.meter.note(|work| work.pixels_written += (end - first) as u64);
+        self.meter.note(|work| {
+            work.pixels_tested += (end - first) as u64;
+            work.pixels_written += (end - first) as u64;
+        });
         let Some(depth) = depth else {
             return fill(&mut items.row(row)[first as usize..end as usize], polygon);
         };
-        self.meter.note(|work| work.depth_tests += (end - first) as u64);
+        self.meter.note(|work| {
+            work.depth_tests += (end - first) as u64;
+            work.fixed_point += cost::LINEAR + cost::STEP_AND_COMPARE * (end - first) as u64;
+        });
         self.z_buffer.draw(items, row, first..end, depth, polygon);
     }
 }

@@ -68,6 +68,11 @@ pub(super) struct Side {
 }
 
 impl Side {
+    /// Negative in front of a row (`[0, 1]`) or a column (`[1, 0]`) of the view.
+    pub fn of_place(slopes: [i128; 2], at: i32, subpixel_bits: u32) -> Side {
+        Side { slopes, offset: -(i128::from(at) << subpixel_bits) }
+    }
+
     pub fn at(&self, x: i128, y: i128) -> i128 {
         self.slopes[0] * x + self.slopes[1] * y + self.offset
     }

@@ -1,4 +1,4 @@
-//! Rows of one polygon, in one view or in two at once.
+//! Rows of one polygon, in one view or in two that share them.
 
 use crate::formats::{Eye, Formats};
 use crate::setup::Polygon;
@@ -29,7 +29,8 @@ impl<const EYES: usize> Scan<EYES> {
         self.edges.clear();
         let mut from = &polygon.vertices[polygon.vertices.len() - 1];
         for to in &polygon.vertices {
-            let (upper, lower) = if from.y[0] <= to.y[0] { (from, to) } else { (to, from) };
+            let [y, next] = [from, to].map(|v| v.y[eyes[0] as usize]);
+            let (upper, lower) = if y <= next { (from, to) } else { (to, from) };
             from = to;
             let made = Edge::new::<f64>(upper, lower, eyes, rows.start, formats);
             if let Some((edge, _)) = made {

@@ -30,14 +30,18 @@ pub fn one<T: Real>(surfaces: &Surfaces, eye: Eye, meter: &mut impl Meter) -> It
     items
 }
 
-/// What both eyes see, in one pass.
+/// What both eyes see, in one pass; in one for each if they do not share their rows
+/// ([`Surfaces::level`]).
 pub fn both<T: Real>(surfaces: &Surfaces, meter: &mut impl Meter) -> [Items; 2] {
+    if surfaces.level().is_err() {
+        return Eye::BOTH.map(|eye| one::<T>(surfaces, eye, meter));
+    }
     let mut items = Eye::BOTH.map(|_| surfaces.items());
     draw_items::<T, 2>(surfaces, Eye::BOTH, &mut items, meter);
     items
 }
 
-/// Writes what some eyes see into item buffers of the surfaces' size.
+/// Writes what some eyes that share their rows see into item buffers of the surfaces' size.
 pub fn draw_items<T: Real, const EYES: usize>(
     surfaces: &Surfaces,
     eyes: [Eye; EYES],
@@ -71,7 +75,7 @@ pub fn draw<'a, T: Real, C, M: Meter, const EYES: usize, const VALUES: usize>(
     let mut table = Table::new(eyes, height, *formats);
     for (seen, corners) in polygons {
         meter.note(|work| work.polygons += seen.iter().filter(|&&seen| seen).count() as u64);
-        table.add(seen, corners, &values);
+        table.add(seen, corners, &values, meter);
     }
     let mut depths = Depths::new(width);
     for row in 0..height as i32 {

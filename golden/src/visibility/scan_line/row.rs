@@ -1,9 +1,10 @@
 //! The pixels of one row: which polygon is nearest at each.
 
 use super::table::{Line, Table};
+use crate::cost;
 use crate::visibility::depths::keep_nearer;
 use crate::visibility::NO_ITEM;
-use crate::work::{Meter, Real};
+use crate::work::{Meter, Operations, Real};
 use std::ops::Range;
 
 /// The depths of the nearest polygons of a row.
@@ -25,13 +26,19 @@ impl Depths {
         items.fill(NO_ITEM);
         self.0.fill(i32::MAX);
         for (polygon, span) in table.spans(view) {
+            // Which of its edges is the left one.
+            meter.note(|work| work.fixed_point += Operations::comparisons(1));
             let columns = span.columns.start.max(0)..span.columns.end.min(items.len() as i32);
             if columns.is_empty() {
                 continue;
             }
             meter.note(|work| {
                 work.interpolations += columns.len() as u64;
+                work.pixels_tested += columns.len() as u64;
                 work.depth_tests += columns.len() as u64;
+                // Also the distance of the first pixel from the edge.
+                work.fixed_point += Operations::new(1, 0, 0, 0);
+                work.fixed_point += cost::STEP_AND_COMPARE * columns.len() as u64;
             });
             let depth = span.line(0, span.offset(columns.start));
             let columns = columns.start as usize..columns.end as usize;

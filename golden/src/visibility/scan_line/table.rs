@@ -1,9 +1,10 @@
 //! The edges of all polygons: buckets by the first row, and those that cross the current row.
 
+use crate::cost;
 use crate::formats::{Eye, Formats};
 use crate::setup::Vertex;
 use crate::visibility::edge::{Along, Edge};
-use crate::work::{Meter, Real};
+use crate::work::{Meter, Operations, Real};
 use std::ops::Range;
 
 /// No edge, or the end of a bucket.
@@ -59,6 +60,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
         seen: [bool; EYES],
         corners: impl Iterator<Item = &'a Vertex> + Clone,
         values: impl Fn(&Vertex) -> [T; VALUES],
+        meter: &mut impl Meter,
     ) {
         let number = self.faces.len() as u32;
         let mut slopes = [[T::of(0.0); VALUES]; EYES];
@@ -69,6 +71,9 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
             for corner in corners {
                 let to = (corner, values(corner));
                 self.side(number, from, to, &mut areas, &mut moments);
+                // Differences and sums of coordinates, and the edge.
+                let sums = Operations::new(1 + EYES as u64, 0, 0, 0);
+                meter.note(|work| work.fixed_point += sums + cost::edge(EYES));
                 from = to;
             }
             let one = T::of(self.formats.one_pixel() as f64);
@@ -92,14 +97,15 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
         moments: &mut [T; VALUES],
     ) {
         let real = |n: i32| T::of(f64::from(n));
-        let fall = real(to.0.y[0] - from.0.y[0]);
+        let y = |v: &Vertex| v.y[self.eyes[0] as usize];
+        let fall = real(y(to.0) - y(from.0));
         for (area, eye) in areas.iter_mut().zip(self.eyes) {
             *area += real(from.0.x[eye as usize] + to.0.x[eye as usize]) * fall;
         }
         for (k, moment) in moments.iter_mut().enumerate() {
             *moment += (from.1[k] + to.1[k]) * fall;
         }
-        let (upper, lower) = if from.0.y[0] <= to.0.y[0] { (from, to) } else { (to, from) };
+        let (upper, lower) = if y(from.0) <= y(to.0) { (from, to) } else { (to, from) };
         if let Some(on) = Edge::new(upper.0, lower.0, self.eyes, 0, &self.formats) {
             self.insert(on, polygon, [upper.1, lower.1]);
         }
@@ -137,6 +143,7 @@ impl<T: Real, const EYES: usize, const VALUES: usize> Table<T, EYES, VALUES> {
                 meter.note(|work| {
                     work.edge_updates += 1;
                     work.interpolations += (EYES + VALUES) as u64;
+                    work.fixed_point += Operations::new(EYES as u64, 0, 0, 0);
                 });
             }
             left

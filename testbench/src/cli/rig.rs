@@ -1,0 +1,60 @@
+//! `wheatstone rig`.
+
+use super::*;
+use wheatstone_golden::picture::write_file;
+use wheatstone_golden::scene::RigFile;
+
+const HELP: &str =
+    "Distances are from the plane of the eyes: in the scene's unit, and as perceived in the
+screen's unit, which is the same unless the projection has a screen distance of its own.
+A point is perceived where the eyes' lines of sight through its two images meet.
+Disparity is how far the right eye's image lies beside the left eye's: negative before the
+screen, positive behind it. Fields of view are angles as seen from between the eyes, of what
+is perceived at a distance: what both eyes see, and what one eye alone sees beside it.
+
+Examples:
+  wheatstone rig                                            the usual viewer and the teapot
+  wheatstone rig --scene room --projection piecewise --out plots
+  wheatstone rig --rig rig.json --at 100,250 --json rig-numbers.json";
+
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub(super) struct RigArgs {
+    /// Distances in the scene that the map has too
+    #[arg(long, value_name = "DISTANCE,…", value_delimiter = ',', value_parser = parse_distance)]
+    at: Vec<f64>,
+    /// Folder for plots of the map and of the fields of view (SVG); it is made if need be
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write all numbers as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    #[command(flatten)]
+    view: View,
+}
+
+fn parse_distance(text: &str) -> Result<f64, String> {
+    let distance = text.trim().parse().ok().filter(|d| (1e-9..=1e9).contains(d));
+    distance.ok_or_else(|| "expected distances from the eyes, numbers from 1e-9 to 1e9".into())
+}
+
+pub(super) fn run(args: &RigArgs) -> Result<u8, Failure> {
+    let RigArgs { at, view, .. } = args;
+    let name = view.scene.as_deref().unwrap_or("teapot");
+    let scene = view.open(name, view.size)?;
+    let rig_file = view.rig.as_deref().map(RigFile::load).transpose()?;
+    let volume = Volume::of(&scene, rig_file.and_then(|file| file.device()))?;
+    say!("{name}, {volume}\n\n{}", volume.tables(at));
+    volume.notes().iter().for_each(|note| say!("\nnote: {note}"));
+    if let Some(out) = &args.out {
+        std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;
+        volume.plots(out)?.iter().for_each(|file| say!("file {}", file.display()));
+    }
+    if let Some(file) = &args.json {
+        let mut content = volume.json(at);
+        content["scene"] = name.into();
+        content["command"] = std::env::args().collect::<Vec<_>>().join(" ").into();
+        write_file(file, format!("{content:#}\n").as_bytes())?;
+    }
+    Ok(OK)
+}
