@@ -6,8 +6,8 @@
 //   S3                  coverage, choice of colour and depth -> slot
 //       slot -> slot queue -> request     response -> blend -> redirect -> left, right
 //
-// Latency: three clocks to `request`, and three from `response` to `left` and `right`, two with
-// fewer than 8 slots; the first stage waits for the next beat (or `last`).
+// Latency: five clocks to `request`, and four from `response` to `left` and `right`; three and two
+// with fewer than 8 slots. The first stage waits for the next beat (or `last`).
 // Reset: rst_i clears the stages' valids, empties the queue, clears redirect's notes and the
 // error, and makes beats void until a LOAD; no data is reset.
 // Paper: section 5, figure 4.
@@ -29,7 +29,8 @@ module sam_hybrid #(
     parameter DEPTH_EXTERNAL = 0,
     // Secondary y affine in both directions: 0 or 1.
     parameter TILT = 0,
-    // Slots in flight between background read and output: 2, 4, 8, 16 or 32.
+    // Slots in flight between background read and output: 2, 4, 8, 16 or 32. Fewer than 8 build the
+    // pipeline of fewest gates, 8 and more the one of the fastest clock.
     parameter SLOTS = 16
 ) (
     input  wire                                           clk_i, rst_i,
@@ -191,8 +192,8 @@ module sam_hybrid #(
         end
     end
 
-    // A long pipeline has a register behind these units: whether a pixel ends is found late in a
-    // clock, and much depends on it.
+    // With many slots a register is behind these units: the next beat shows late in a clock whether
+    // this one leaves and ends its pixel, and all of S2 depends on that.
     localparam W = `SAM_OP_BITS + P + C + `SAM_MOVE_BITS + 16 + MB + 2 * C + RB + D;
     wire [W-1:0] xy = {
         xy_op, xy_column, xy_row, xy_row_move, xy_save, xy_move, xy_near, xy_x_inside, xy_x_end,
