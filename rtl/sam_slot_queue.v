@@ -170,10 +170,10 @@ module sam_slot_queue #(
     wire primary_done   = ~primary_here | (held ? queued & room : out_taken);
     wire secondary_done = ~secondary_here | (request_valid_o & request_ready_i);
 
-    assign request_valid_o = secondary_here & ~queued & room & ~waits;
+    assign request_valid_o = secondary_here & ~(primary_here & single_i) & room & ~waits;
     assign {request_eye_o, request_x_o, request_y_o} = secondary_place;
     assign push            = (queued & room) | (request_valid_o & request_ready_i);
-    assign front_ready     = ~front_valid | (primary_done & secondary_done);
+    assign front_ready     = primary_done & secondary_done;
 
     always @(posedge clk_i) begin
         if (rst_i) begin
