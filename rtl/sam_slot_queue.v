@@ -294,19 +294,25 @@ module sam_slot_queue #(
         end else begin : g_long
             reg  [U-1:0] alike_q;
             reg  [1:0]   eyes_q;
-            reg          idle_q, full_q;
-            wire         meets, front_meets, back_valid, back_meets, out_back_valid;
+            reg          idle_q, full_q, drained_q, epoch_q, slot_epoch_q;
+            wire         back_valid, out_back_valid, front_near, front_far, front_epoch;
+            wire [2:0]   back_meets;
             wire [S-1:0] back;
             wire [S:0]   out_back;
             wire [N:0]   used = enter_q - leave_q;
 
-            // Next, the slot, and then two in the buffer: all of them are ahead of the next.
-            assign meets = alike_q != {U{1'b0}};
+            // What a slot met: another slot, or what was on its way, which matters no longer when an
+            // epoch has ended by all of that having left. Two ends are taken for none.
+            localparam FAR = I + 4;
+            wire near = alike_q[U-1:FAR] != {(U - FAR){1'b0}};
+            wire far  = alike_q[FAR-1:0] != {FAR{1'b0}};
 
-            sam_buffer #(.WIDTH(S + 1)) u_slots (
+            sam_buffer #(.WIDTH(S + 3)) u_slots (
                 .clk_i(clk_i), .rst_i(rst_i),
-                .in_valid_i(slot_valid_i), .in_ready_o(slot_ready_o), .in_data_i({meets, slot}),
-                .out_valid_o(front_valid), .out_ready_i(front_ready), .out_data_o({front_meets, front}),
+                .in_valid_i(slot_valid_i), .in_ready_o(slot_ready_o),
+                .in_data_i({near, far, slot_epoch_q, slot}),
+                .out_valid_o(front_valid), .out_ready_i(front_ready),
+                .out_data_o({front_near, front_far, front_epoch, front}),
                 .back_valid_o(back_valid), .back_data_o({back_meets, back})
             );
             sam_buffer #(.WIDTH(S + 1)) u_out (
@@ -317,7 +323,10 @@ module sam_slot_queue #(
             );
 
             always @(posedge clk_i) begin
-                if (~slot_valid_i | slot_ready_o) alike_q <= alike;
+                if (~slot_valid_i | slot_ready_o) {alike_q, slot_epoch_q} <= {alike, epoch_q};
+
+                drained_q <= idle;
+                epoch_q   <= ~rst_i & (epoch_q ^ (idle & ~drained_q));
 
                 if (front_ready) idle_q <= 1'b0;
                 else if (idle)   idle_q <= 1'b1;
@@ -329,10 +338,11 @@ module sam_slot_queue #(
                 else       full_q <= ~pop & (full_q | (push & (used == SLOTS[N:0] - {{N{1'b0}}, 1'b1})));
             end
 
-            assign waits      = front_meets & ~idle_q;
+            assign waits      = (front_near | (front_far & (front_epoch == epoch_q))) & ~idle_q;
             assign held       = single_i | eyes_q[front_eye];
             assign full       = full_q;
             assign out_busy   = out_valid_o;
+            // The slots come last.
             assign word       = {slot, back, front, out_back[S-1:0], leaving[S-1:0]};
             assign word_valid = {slot_valid_i, back_valid, front_valid, out_back_valid, out_valid_o};
             wire unused = &{1'b0, back_meets, out_back[S]};
