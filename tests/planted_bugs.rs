@@ -347,7 +347,7 @@ fn slot_queue() {
             ("full_q | (push &", "full_q & (push &"),
             ("~secondary_here | (request", "~secondary_here & (request"),
             ("held & (single_i |", "held & (single_i &"),
-            ("primary_first ? first_kept", "~primary_first ? first_kept"),
+            ("primary_first ? {first_rgba", "~primary_first ? {first_rgba"),
         ],
     );
     hybrid.catches(
