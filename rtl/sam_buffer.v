@@ -1,8 +1,8 @@
-// Two register stages of a pipeline in one: what is behind it never waits for a path from what is
-// in front, as `in_ready_o` is a register. What is inside can be seen.
+// Room for two beats between stages of a pipeline: `in_ready_o` follows from registers, and so does what
+// the payload's registers take. What is inside can be seen.
 //
 // Latency: one clock, or more while the beat in front waits.
-// Reset: rst_i clears the two valids only.
+// Reset: rst_i empties it; the payload keeps what it had.
 `default_nettype none
 
 module sam_buffer #(
@@ -30,30 +30,36 @@ module sam_buffer #(
         end
     endgenerate
 
-    reg             front_valid_q;
-    reg             back_valid_q;
-    reg [WIDTH-1:0] front_q;
-    reg [WIDTH-1:0] back_q;
+    reg             write_q;
+    reg             read_q;
+    reg [1:0]       valid_q;
+    reg [WIDTH-1:0] data0_q;
+    reg [WIDTH-1:0] data1_q;
 
-    wire front_free = ~front_valid_q | out_ready_i;
+    wire write = in_valid_i & in_ready_o;
+    wire read  = out_valid_o & out_ready_i;
 
-    assign in_ready_o   = ~back_valid_q;
-    assign out_valid_o  = front_valid_q;
-    assign out_data_o   = front_q;
-    assign back_valid_o = back_valid_q;
-    assign back_data_o  = back_q;
+    assign in_ready_o   = ~(valid_q[0] & valid_q[1]);
+    assign out_valid_o  = valid_q[0] | valid_q[1];
+    assign out_data_o   = read_q ? data1_q : data0_q;
+    assign back_valid_o = valid_q[0] & valid_q[1];
+    assign back_data_o  = read_q ? data0_q : data1_q;
 
     always @(posedge clk_i) begin
         if (rst_i) begin
-            front_valid_q <= 1'b0;
-            back_valid_q  <= 1'b0;
+            write_q <= 1'b0;
+            read_q  <= 1'b0;
+            valid_q <= 2'b00;
         end else begin
-            if (front_free) front_valid_q <= back_valid_q | in_valid_i;
-            back_valid_q <= ~front_free & (back_valid_q | in_valid_i);
+            write_q    <= write_q ^ write;
+            read_q     <= read_q ^ read;
+            valid_q[0] <= (valid_q[0] & ~(read & ~read_q)) | (write & ~write_q);
+            valid_q[1] <= (valid_q[1] & ~(read & read_q)) | (write & write_q);
         end
 
-        if (front_free)    front_q <= back_valid_q ? back_q : in_data_i;
-        if (~back_valid_q) back_q  <= in_data_i;
+        // Neither looks at a valid or a ready from outside, which may come late and far.
+        if (~valid_q[0]) data0_q <= in_data_i;
+        if (~valid_q[1]) data1_q <= in_data_i;
     end
 endmodule
 

@@ -448,9 +448,10 @@ fn parts_of_the_systems() {
         "default",
         "sam_buffer.v",
         &[
-            ("back_valid_q ? back_q : in_data_i", "~back_valid_q ? back_q : in_data_i"),
-            ("~front_valid_q | out_ready_i", "~front_valid_q & out_ready_i"),
-            ("~front_free & (back", "front_free & (back"),
+            ("read_q ? data1_q : data0_q", "read_q ? data0_q : data1_q"),
+            ("& ~(read & read_q)) |", "& (read & read_q)) |"),
+            ("write_q ^ write", "write_q | write"),
+            ("(write & write_q)", "(write | write_q)"),
         ],
     );
     minimal.catches("paper", "sam_popcount.v", &[("ones = ones + {", "ones = ones - {")]);
