@@ -1,9 +1,8 @@
 // Blending of a secondary pixel with its background: C = S t + (1 - t) B, with t from alpha and
 // from the covered area.
 //
-// Latency: two clocks: the difference S - B and t, then their product. The sum with B follows. With
-// FAR one clock more, between the two.
-// Reset: rst_i clears the valids of the stages only.
+// Latency: two clocks: the difference S - B and t, then their product. The sum with B follows.
+// Reset: rst_i clears the valids of the two stages only.
 // Paper: section 5.7, equation 2.
 `include "sam_formats.vh"
 `default_nettype none
@@ -11,8 +10,6 @@
 module sam_blend #(
     // 16 coverage samples a pixel: 0 or 1.
     parameter ANTIALIAS = 0,
-    // A register of its own in front of the multipliers, which have fixed places on a chip: 0 or 1.
-    parameter FAR = 0,
     // Bits that accompany a pixel unchanged: 1 or more.
     parameter TAG_BITS = 1
 ) (
@@ -37,9 +34,6 @@ module sam_blend #(
     generate
         if (ANTIALIAS != 0 && ANTIALIAS != 1) begin : g_illegal_antialias
             sam_blend_ANTIALIAS_must_be_0_or_1 u_error ();
-        end
-        if (FAR != 0 && FAR != 1) begin : g_illegal_far
-            sam_blend_FAR_must_be_0_or_1 u_error ();
         end
         if (TAG_BITS < 1) begin : g_illegal_tag_bits
             sam_blend_TAG_BITS_must_be_1_or_more u_error ();
@@ -68,34 +62,9 @@ module sam_blend #(
         end
     endgenerate
 
-    // What is multiplied: the first stage as it is, or a clock later.
-    localparam W = 9 + 9 * CHANNELS + `SAM_RGB_BITS + TAG_BITS;
-    wire [9*CHANNELS-1:0]    difference;
-    wire [W-1:0]             first = {factor_q, difference, factor_background_q, factor_tag_q};
-    wire [W-1:0]             second;
-    wire                     factor_free, second_valid;
-    wire [8:0]               second_factor;
-    wire [9*CHANNELS-1:0]    second_difference;
-    wire [`SAM_RGB_BITS-1:0] second_background;
-    wire [TAG_BITS-1:0]      second_tag;
-    wire                     colour_free = ~colour_valid_q | colour_ready_i;
+    wire colour_free = ~colour_valid_q | colour_ready_i;
 
-    generate
-        if (FAR == 0) begin : g_near
-            assign second       = first;
-            assign second_valid = factor_valid_q;
-            assign factor_free  = colour_free;
-        end else begin : g_far
-            sam_stage #(.WIDTH(W)) u_far (
-                .clk_i(clk_i), .rst_i(rst_i),
-                .in_valid_i(factor_valid_q), .in_ready_o(factor_free), .in_data_i(first),
-                .out_valid_o(second_valid), .out_ready_i(colour_free), .out_data_o(second)
-            );
-        end
-    endgenerate
-
-    assign {second_factor, second_difference, second_background, second_tag} = second;
-    assign pixel_ready_o = ~factor_valid_q | factor_free;
+    assign pixel_ready_o = ~factor_valid_q | colour_free;
 
     always @(posedge clk_i) begin
         if (rst_i) begin
@@ -103,7 +72,7 @@ module sam_blend #(
             colour_valid_q <= 1'b0;
         end else begin
             if (pixel_ready_o) factor_valid_q <= pixel_valid_i;
-            if (colour_free)   colour_valid_q <= second_valid;
+            if (colour_free)   colour_valid_q <= factor_valid_q;
         end
 
         if (pixel_valid_i & pixel_ready_o) begin
@@ -111,9 +80,9 @@ module sam_blend #(
             factor_background_q <= pixel_background_i;
             factor_tag_q        <= pixel_tag_i;
         end
-        if (second_valid & colour_free) begin
-            colour_background_q <= second_background;
-            colour_tag_q        <= second_tag;
+        if (factor_valid_q & colour_free) begin
+            colour_background_q <= factor_background_q;
+            colour_tag_q        <= factor_tag_q;
         end
     end
 
@@ -121,10 +90,9 @@ module sam_blend #(
     generate
         for (i = 0; i < CHANNELS; i = i + 1) begin : g_channel
             // S - B, nine bits signed.
-            reg         [8:0]  difference_q;
-            wire signed [8:0]  change  = second_difference[9*i +: 9];
-            wire signed [9:0]  weight  = {1'b0, second_factor};
-            wire signed [18:0] product = change * weight;
+            reg  signed [8:0]  difference_q;
+            wire signed [9:0]  weight  = {1'b0, factor_q};
+            wire signed [18:0] product = difference_q * weight;
             // The product in whole steps, and one bit for the rounding: it is the carry into the
             // sum, which fits a channel, so that higher bits do not matter.
             reg  [8:0] change_q;
@@ -134,10 +102,9 @@ module sam_blend #(
                 if (pixel_valid_i & pixel_ready_o) begin
                     difference_q <= {1'b0, pixel_rgb_i[8*i +: 8]} - {1'b0, pixel_background_i[8*i +: 8]};
                 end
-                if (second_valid & colour_free) change_q <= product[15:7];
+                if (factor_valid_q & colour_free) change_q <= product[15:7];
             end
 
-            assign difference[9*i +: 9]   = difference_q;
             assign colour_rgb_o[8*i +: 8] = sum[8:1];
 
             wire unused = &{1'b0, product[18:16], product[6:0], sum[0]};

@@ -6,7 +6,7 @@
 //   S3                  coverage, choice of colour and depth -> slot
 //       slot -> slot queue -> request     response -> blend -> redirect -> left, right
 //
-// Latency: five clocks to `request`, and four from `response` to `left` and `right`; three and two
+// Latency: five clocks to `request`, and three from `response` to `left` and `right`; three and two
 // with fewer than 8 slots. The first stage waits for the next beat (or `last`).
 // Reset: rst_i clears the stages' valids, empties the queue, clears redirect's notes and the
 // error, and makes beats void until a LOAD; no data is reset.

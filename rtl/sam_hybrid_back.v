@@ -3,7 +3,7 @@
 //
 //   coverage, choice of colour and depth -> slot -> slot queue, blend -> redirect
 //
-// Latency: two clocks to `request`, four from `response` to `left` and `right`; one and two with
+// Latency: two clocks to `request`, three from `response` to `left` and `right`; one and two with
 // fewer than 8 slots.
 // Reset: rst_i empties stages and queue; no data is reset.
 // Paper: section 5, figure 4.
@@ -210,7 +210,7 @@ module sam_hybrid_back #(
         .out_secondary_depth_o(out_secondary_depth), .out_secondary_write_o(out_secondary_write)
     );
 
-    sam_blend #(.ANTIALIAS(ANTIALIAS), .FAR(SLOTS < 8 ? 0 : 1), .TAG_BITS(1)) u_blend (
+    sam_blend #(.ANTIALIAS(ANTIALIAS), .TAG_BITS(1)) u_blend (
         .clk_i(clk_i), .rst_i(rst_i),
         .pixel_valid_i(pixel_valid), .pixel_ready_o(pixel_ready),
         .pixel_rgb_i(pixel_rgba[`SAM_RGB_BITS-1:0]), .pixel_alpha_i(pixel_rgba[RB-1:`SAM_RGB_BITS]),

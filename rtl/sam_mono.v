@@ -3,7 +3,7 @@
 //
 //   walk, planes -> primary -> area -> slot queue -> request     response -> blend -> pixel
 //
-// Latency: five clocks from `walk` to `request`, four from `response` to `pixel`; four and two with
+// Latency: five clocks from `walk` to `request`, three from `response` to `pixel`; four and two with
 // fewer than 8 slots.
 // Reset: rst_i empties stages and queue; no data is reset.
 // Paper: section 3; docs/mono.md.
@@ -177,7 +177,7 @@ module sam_mono #(
         .out_secondary_depth_o(pixel_depth_o), .out_secondary_write_o(pixel_write_o)
     );
 
-    sam_blend #(.ANTIALIAS(ANTIALIAS), .FAR(SLOTS < 8 ? 0 : 1), .TAG_BITS(1)) u_blend (
+    sam_blend #(.ANTIALIAS(ANTIALIAS), .TAG_BITS(1)) u_blend (
         .clk_i(clk_i), .rst_i(rst_i),
         .pixel_valid_i(behind_valid), .pixel_ready_o(behind_ready),
         .pixel_rgb_i(behind_rgba[`SAM_RGB_BITS-1:0]),

@@ -140,19 +140,19 @@ module sam_slot_queue #(
     wire [P-1:0] primary_place   = {front_eye, front_primary_pixel[X-1 -: 2*C]};
     wire [P-1:0] secondary_place = {~front_eye, front_secondary_pixel[X-1 -: 2*C]};
 
-    // In the queue, in a stage before blend and in up to three beside it.
+    // In the queue, in a stage before blend and in two beside it.
     reg  [N:0]       enter_q;
     reg  [N:0]       leave_q;
     reg  [SLOTS-1:0] occupied_q;
-    wire [3:0]       stage_valid;
-    wire [P-1:0]     stage_place [0:3];
+    wire [2:0]       stage_valid;
+    wire [P-1:0]     stage_place [0:2];
 
     wire [N-1:0] enter_index = enter_q[N-1:0];
     wire [N-1:0] leave_index = leave_q[N-1:0];
     wire         empty       = enter_q == leave_q;
     wire         full;
     wire         push, pop, out_busy;
-    wire         idle        = empty & (stage_valid == 4'd0) & ~out_busy;
+    wire         idle        = empty & (stage_valid == 3'd0) & ~out_busy;
 
     wire         room        = ~full | (SHORT & pop);
 
@@ -222,7 +222,7 @@ module sam_slot_queue #(
     // are compared by their low bits, which differ where pixels are near each other: others wait in
     // vain once in a thousand times.
     localparam M = 11;
-    localparam I = SLOTS + 4;
+    localparam I = SLOTS + 3;
     localparam U = I + 2 * WORDS;
 
     wire [WORDS-1:0]   word_valid;
@@ -378,7 +378,7 @@ module sam_slot_queue #(
     endgenerate
     assign stage_place[0] = first_place;
 
-    wire primary_first = first_valid & ~first_read & (stage_valid[3:1] == 3'd0);
+    wire primary_first = first_valid & ~first_read & (stage_valid[2:1] == 2'd0);
 
     assign pixel_valid_o      = response_valid_i & first_valid & first_read;
     assign response_ready_o   = pixel_ready_i & first_valid & first_read;
@@ -388,12 +388,11 @@ module sam_slot_queue #(
     assign pixel_visible_o    = (DEPTH_EXTERNAL != 0) | (first_kept[1 +: D] < response_depth_i);
     assign first_taken        = (pixel_valid_o & pixel_ready_i) | (primary_first & out_taken);
 
-    // In step with the stages of blend.
-    wire         step_ready, factor_ready, far_ready, colour_valid;
-    wire [7:0]   factor_alpha, far_alpha, colour_alpha;
-    wire [K-1:0] factor_kept, far_kept, colour_kept;
-    wire         far_valid;
-    wire [P-1:0] factor_place, far_place;
+    // In step with the two stages of blend.
+    wire         step_ready, factor_ready, colour_valid;
+    wire [7:0]   factor_alpha, colour_alpha;
+    wire [K-1:0] factor_kept, colour_kept;
+    wire [P-1:0] factor_place;
 
     sam_stage #(.WIDTH(8 + K + P)) u_factor (
         .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(pixel_valid_o), .in_ready_o(step_ready),
@@ -401,36 +400,19 @@ module sam_slot_queue #(
         .out_valid_o(stage_valid[1]), .out_ready_i(factor_ready),
         .out_data_o({factor_alpha, factor_kept, factor_place})
     );
-    generate
-        if (SHORT) begin : g_near
-            assign factor_ready   = far_ready;
-            assign far_valid      = stage_valid[1];
-            assign {far_alpha, far_kept, far_place} = {factor_alpha, factor_kept, factor_place};
-            assign stage_valid[2] = 1'b0;
-        end else begin : g_far
-            sam_stage #(.WIDTH(8 + K + P)) u_far (
-                .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(stage_valid[1]), .in_ready_o(factor_ready),
-                .in_data_i({factor_alpha, factor_kept, factor_place}),
-                .out_valid_o(far_valid), .out_ready_i(far_ready),
-                .out_data_o({far_alpha, far_kept, far_place})
-            );
-            assign stage_valid[2] = far_valid;
-        end
-    endgenerate
     assign stage_place[1] = factor_place;
-    assign stage_place[2] = far_place;
 
     sam_stage #(.WIDTH(8 + K + P)) u_colour (
-        .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(far_valid), .in_ready_o(far_ready),
-        .in_data_i({far_alpha, far_kept, far_place}),
+        .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(stage_valid[1]), .in_ready_o(factor_ready),
+        .in_data_i({factor_alpha, factor_kept, factor_place}),
         .out_valid_o(colour_valid), .out_ready_i(colour_ready_o),
-        .out_data_o({colour_alpha, colour_kept, stage_place[3]})
+        .out_data_o({colour_alpha, colour_kept, stage_place[2]})
     );
-    assign stage_valid[3] = colour_valid;
+    assign stage_valid[2] = colour_valid;
 
     // Output: a primary that passes beside the pixel from the queue, which is of the other eye.
     wire         out_secondary = primary_first | (colour_valid_i & colour_visible_i);
-    wire [P-1:0] out_place     = primary_first ? first_place : stage_place[3];
+    wire [P-1:0] out_place     = primary_first ? first_place : stage_place[2];
 
     assign out = {
         ~primary_first, passes, out_secondary, out_secondary ? ~out_place[P-1] : front_eye,

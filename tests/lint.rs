@@ -115,7 +115,7 @@ fn illegal(module: &str, parameter: &str) -> Vec<u32> {
         (_, "SUBPIXEL_BITS") => vec![0, 5, 16],
         (_, "FILTER_TERMS") => vec![1, 4],
         (_, "ANTIALIAS" | "INTEGRATED" | "DEPTH_INTERPOLATED") => vec![2],
-        (_, "DEPTH_EXTERNAL" | "TILT" | "LEND" | "FAR") => vec![2],
+        (_, "DEPTH_EXTERNAL" | "TILT" | "LEND") => vec![2],
         (_, "SLOTS") => vec![1, 3, 64],
         (_, "WIDTH" | "TAG_BITS") => vec![0],
         ("sam_clamp", "BITS") => vec![0],
