@@ -6,8 +6,8 @@
 //   S3                  coverage, choice of colour and depth -> slot
 //       slot -> slot queue -> request     response -> blend -> redirect -> left, right
 //
-// Latency: three clocks to `request`, and three from `response` to `left` and `right`, two with
-// fewer than 8 slots; the first stage waits for the next beat (or `last`).
+// Latency: five clocks to `request`, and three from `response` to `left` and `right`; three and two
+// with fewer than 8 slots. The first stage waits for the next beat (or `last`).
 // Reset: rst_i clears the stages' valids, empties the queue, clears redirect's notes and the
 // error, and makes beats void until a LOAD; no data is reset.
 // Paper: section 5, figure 4.
@@ -29,7 +29,8 @@ module sam_hybrid #(
     parameter DEPTH_EXTERNAL = 0,
     // Secondary y affine in both directions: 0 or 1.
     parameter TILT = 0,
-    // Slots in flight between background read and output: 2, 4, 8, 16 or 32.
+    // Slots in flight between background read and output: 2, 4, 8, 16 or 32. Fewer than 8 build the
+    // pipeline of fewest gates, 8 and more the one of the fastest clock.
     parameter SLOTS = 16
 ) (
     input  wire                                           clk_i, rst_i,
@@ -128,16 +129,16 @@ module sam_hybrid #(
     // S1: where the beat falls in the secondary. A LOAD beat is offered with its setup.
     wire is_load = beat_op_i == `SAM_OP_LOAD;
     wire offered = beat_valid_i & (~is_load | setup_valid_i);
-    wire s1_valid, s1_ready, s1_taken;
+    wire xy_valid, xy_taken, s1_ready;
 
     assign beat_ready_o  = s1_ready & ~(beat_valid_i & ~offered);
     assign setup_ready_o = s1_ready & beat_valid_i & is_load;
 
-    wire [`SAM_OP_BITS-1:0]   s1_op;
-    wire [P-1:0]              s1_column;
-    wire [C-1:0]              s1_row;
-    wire [`SAM_MOVE_BITS-1:0] s1_row_move;
-    wire s1_save, s1_last, s1_move, s1_near, s1_x_inside, s1_x_end, s1_y_inside, s1_y_end;
+    wire [`SAM_OP_BITS-1:0]   xy_op;
+    wire [P-1:0]              xy_column;
+    wire [C-1:0]              xy_row;
+    wire [`SAM_MOVE_BITS-1:0] xy_row_move;
+    wire xy_save, xy_last, xy_move, xy_near, xy_x_inside, xy_x_end, xy_y_inside, xy_y_end;
     wire y_valid, y_ready;
 
     sam_x_interpolator #(.SUBPIXEL_BITS(SUBPIXEL_BITS)) u_x_interpolator (
@@ -145,10 +146,10 @@ module sam_hybrid #(
         .beat_valid_i(offered), .beat_ready_o(s1_ready),
         .beat_op_i(beat_op_i), .beat_save_i(beat_save_i), .beat_last_i(beat_last_i),
         .beat_start_i(setup_x_start_i), .beat_step_i(setup_x_step_i), .beat_row_i(setup_x_row_i),
-        .pixel_valid_o(s1_valid), .pixel_ready_i(s1_taken),
-        .pixel_op_o(s1_op), .pixel_save_o(s1_save), .pixel_last_o(s1_last),
-        .pixel_x_o(s1_column), .pixel_move_o(s1_move), .pixel_near_o(s1_near),
-        .pixel_inside_o(s1_x_inside), .pixel_end_o(s1_x_end)
+        .pixel_valid_o(xy_valid), .pixel_ready_i(xy_taken),
+        .pixel_op_o(xy_op), .pixel_save_o(xy_save), .pixel_last_o(xy_last),
+        .pixel_x_o(xy_column), .pixel_move_o(xy_move), .pixel_near_o(xy_near),
+        .pixel_inside_o(xy_x_inside), .pixel_end_o(xy_x_end)
     );
 
     sam_y_interpolator #(.SUBPIXEL_BITS(SUBPIXEL_BITS), .TILT(TILT)) u_y_interpolator (
@@ -157,12 +158,12 @@ module sam_hybrid #(
         .beat_op_i(beat_op_i), .beat_save_i(beat_save_i), .beat_last_i(beat_last_i),
         .beat_start_i(setup_y_start_i), .beat_step_i(setup_y_step_i), .beat_view_i(setup_y_view_i),
         .beat_slant_i(setup_y_slant_i), .beat_row_i(setup_y_row_i),
-        .pixel_valid_o(y_valid), .pixel_ready_i(s1_taken),
-        .pixel_y_o(s1_row), .pixel_move_o(s1_row_move),
-        .pixel_inside_o(s1_y_inside), .pixel_end_o(s1_y_end)
+        .pixel_valid_o(y_valid), .pixel_ready_i(xy_taken),
+        .pixel_y_o(xy_row), .pixel_move_o(xy_row_move),
+        .pixel_inside_o(xy_y_inside), .pixel_end_o(xy_y_end)
     );
 
-    wire s1_refused, s1_eye, s1_binocular, s1_lend, s1_average, s1_planes, s1_swap, s1_mirror;
+    wire xy_refused, xy_eye, xy_binocular, xy_lend, xy_average, xy_planes, xy_swap, xy_mirror;
 
     sam_polygon #(.SUBPIXEL_BITS(SUBPIXEL_BITS), .LEND(1)) u_polygon (
         .clk_i(clk_i), .rst_i(rst_i), .accept_i(offered & s1_ready), .op_i(beat_op_i),
@@ -171,25 +172,68 @@ module sam_hybrid #(
         .setup_x_start_i(setup_x_start_i[`SAM_FRACTION_BITS +: P]),
         .setup_x_step_i(setup_x_step_i), .setup_swap_i(setup_swap_i),
         .setup_mirror_i(setup_mirror_i),
-        .void_o(s1_refused), .eye_o(s1_eye), .binocular_o(s1_binocular), .lend_o(s1_lend),
-        .average_o(s1_average), .planes_o(s1_planes), .swap_o(s1_swap), .mirror_o(s1_mirror)
+        .void_o(xy_refused), .eye_o(xy_eye), .binocular_o(xy_binocular), .lend_o(xy_lend),
+        .average_o(xy_average), .planes_o(xy_planes), .swap_o(xy_swap), .mirror_o(xy_mirror)
     );
 
-    reg           s1_centre_q;
-    reg [MB-1:0]  s1_mask_q;
-    reg [2*C-1:0] s1_place_q;
-    reg [RB-1:0]  s1_rgba_q;
-    reg [D-1:0]   s1_depth_q;
+    reg           xy_centre_q;
+    reg [MB-1:0]  xy_mask_q;
+    reg [2*C-1:0] xy_place_q;
+    reg [RB-1:0]  xy_rgba_q;
+    reg [D-1:0]   xy_depth_q;
 
     always @(posedge clk_i) begin
         if (offered & s1_ready) begin
-            s1_centre_q <= beat_centre_i;
-            s1_mask_q   <= beat_mask_i;
-            s1_place_q  <= {beat_x_i, beat_y_i};
-            s1_rgba_q   <= beat_rgba_i;
-            s1_depth_q  <= beat_depth_i;
+            xy_centre_q <= beat_centre_i;
+            xy_mask_q   <= beat_mask_i;
+            xy_place_q  <= {beat_x_i, beat_y_i};
+            xy_rgba_q   <= beat_rgba_i;
+            xy_depth_q  <= beat_depth_i;
         end
     end
+
+    // With many slots a register is behind these units: the next beat shows late in a clock whether
+    // this one leaves and ends its pixel, and all of S2 depends on that.
+    localparam W = `SAM_OP_BITS + P + C + `SAM_MOVE_BITS + 16 + MB + 2 * C + RB + D;
+    wire [W-1:0] xy = {
+        xy_op, xy_column, xy_row, xy_row_move, xy_save, xy_move, xy_near, xy_x_inside, xy_x_end,
+        xy_y_inside, xy_y_end, xy_refused, xy_eye, xy_binocular, xy_lend, xy_average, xy_planes,
+        xy_swap, xy_mirror, xy_centre_q, xy_mask_q, xy_place_q, xy_rgba_q, xy_depth_q
+    };
+    wire [W-1:0] s1;
+    wire         s1_valid, s1_taken;
+
+    generate
+        if (SLOTS < 8) begin : g_short
+            assign s1       = xy;
+            assign s1_valid = xy_valid;
+            assign xy_taken = s1_taken;
+        end else begin : g_long
+            sam_stage #(.WIDTH(W)) u_xy (
+                .clk_i(clk_i), .rst_i(rst_i),
+                .in_valid_i(xy_valid), .in_ready_o(xy_taken), .in_data_i(xy),
+                .out_valid_o(s1_valid), .out_ready_i(s1_taken), .out_data_o(s1)
+            );
+        end
+    endgenerate
+
+    wire [`SAM_OP_BITS-1:0]   s1_op;
+    wire [P-1:0]              s1_column;
+    wire [C-1:0]              s1_row;
+    wire [`SAM_MOVE_BITS-1:0] s1_row_move;
+    wire s1_save, s1_move, s1_near, s1_x_inside, s1_x_end, s1_y_inside, s1_y_end;
+    wire s1_refused, s1_eye, s1_binocular, s1_lend, s1_average, s1_planes, s1_swap, s1_mirror;
+    wire s1_centre;
+    wire [MB-1:0]  s1_mask;
+    wire [2*C-1:0] s1_place;
+    wire [RB-1:0]  s1_rgba;
+    wire [D-1:0]   s1_depth;
+
+    assign {
+        s1_op, s1_column, s1_row, s1_row_move, s1_save, s1_move, s1_near, s1_x_inside, s1_x_end,
+        s1_y_inside, s1_y_end, s1_refused, s1_eye, s1_binocular, s1_lend, s1_average, s1_planes,
+        s1_swap, s1_mirror, s1_centre, s1_mask, s1_place, s1_rgba, s1_depth
+    } = s1;
 
     // Into S2: a LOAD beat is offered with its edges. All units of S2 move together. The sampler and
     // the filter have room between the ends of pixels even when the stage has not: they get a beat
@@ -231,8 +275,8 @@ module sam_hybrid #(
         .clk_i(clk_i), .rst_i(rst_i),
         .in_valid_i(s1_offered), .in_ready_o(s2_ready),
         .in_data_i({~s1_void, ~s1_void & s1_binocular & s1_end & s1_x_inside & s1_y_inside,
-                    s1_eye, s1_lend, s1_average, s1_planes, s1_centre_q,
-                    s1_mask_q, s1_place_q, s1_rgba_q, s1_depth_q}),
+                    s1_eye, s1_lend, s1_average, s1_planes, s1_centre,
+                    s1_mask, s1_place, s1_rgba, s1_depth}),
         .out_valid_o(s2_valid), .out_ready_i(s3_ready),
         .out_data_o({s2_draw, s2_secondary, s2_eye, s2_lend, s2_average, s2_planes, s2_centre,
                      s2_mask, s2_place, s2_rgba, s2_depth})
@@ -276,7 +320,7 @@ module sam_hybrid #(
     wire                  display_ready, display_valid, sampler_ready, sampler_valid, hit;
     wire                  filter_ready, filter_valid;
     wire [C-1:0]          column, row;
-    wire [RB+D-1:0]       s1_data = {s1_depth_q, s1_rgba_q};
+    wire [RB+D-1:0]       s1_data = {s1_depth, s1_rgba};
     wire [RB+D-1:0]       sample;
     wire [RB-1:0]         average;
     wire [`SAM_COUNT_BITS-1:0] count;
@@ -291,7 +335,7 @@ module sam_hybrid #(
     sam_filter #(.FILTER_TERMS(FILTER_TERMS)) u_filter (
         .clk_i(clk_i), .rst_i(rst_i),
         .beat_valid_i(s1_moves), .beat_ready_o(filter_ready), .beat_first_i(s1_first),
-        .beat_end_i(s1_end), .beat_include_i(s1_centre_q), .beat_rgba_i(s1_rgba_q),
+        .beat_end_i(s1_end), .beat_include_i(s1_centre), .beat_rgba_i(s1_rgba),
         .pixel_valid_o(filter_valid), .pixel_ready_i(s3_ready),
         .pixel_rgba_o(average), .pixel_count_o(count)
     );
@@ -357,7 +401,7 @@ module sam_hybrid #(
     );
 
     wire unused = &{
-        1'b0, s1_last, y_valid, y_ready, edge_ready, edge_valid, display_ready, display_valid,
+        1'b0, xy_last, y_valid, y_ready, edge_ready, edge_valid, display_ready, display_valid,
         sampler_ready, sampler_valid, hit, filter_ready, filter_valid, s1_data
     };
 endmodule

@@ -3,8 +3,8 @@
 //
 //   coverage, choice of colour and depth -> slot -> slot queue, blend -> redirect
 //
-// Latency: one clock to `request`, three from `response` to `left` and `right`, or two with fewer
-// than 8 slots.
+// Latency: two clocks to `request`, three from `response` to `left` and `right`; one and two with
+// fewer than 8 slots.
 // Reset: rst_i empties stages and queue; no data is reset.
 // Paper: section 5, figure 4.
 `include "sam_formats.vh"

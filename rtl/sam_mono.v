@@ -3,7 +3,8 @@
 //
 //   walk, planes -> primary -> area -> slot queue -> request     response -> blend -> pixel
 //
-// Latency: four clocks from `walk` to `request`, three from `response` to `pixel`.
+// Latency: five clocks from `walk` to `request`, three from `response` to `pixel`; four and two with
+// fewer than 8 slots.
 // Reset: rst_i empties stages and queue; no data is reset.
 // Paper: section 3; docs/mono.md.
 `include "sam_formats.vh"

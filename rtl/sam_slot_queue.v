@@ -1,6 +1,6 @@
 // Queue between the background read of a secondary pixel and the pixel's output.
 //
-//   slot, secondary -> request, queue     response -> depth test, u_answer -> (blend) -> out
+//   slot, secondary -> request, queue     response -> depth test -> (blend) -> out
 //   slot, primary ---> out, or into the queue where a pixel of its eye is before it
 //
 // A primary pixel passes the queue, unless that would change the order of its eye's pixels. The
@@ -9,8 +9,9 @@
 // A secondary that falls where a pixel under way does, of the same eye, waits until none is under
 // way: so memory which reads in order never answers with what has since been overwritten.
 //
-// Latency: none from slot to request and from a primary to out; one clock from response to pixel,
-// none with fewer than 8 slots; none from colour to out.
+// Latency: one clock from slot to request, none from response to pixel, one from colour to out; a
+// response is taken two clocks after its request at the earliest. With fewer than 8 slots none, none,
+// none and one.
 // Reset: rst_i empties the queue; no data is reset.
 // Paper: section 5.7 (background), 6 (synchronisation of the pipelines).
 `include "sam_formats.vh"
@@ -115,18 +116,31 @@ module sam_slot_queue #(
         end
     endgenerate
 
-    // A place with its eye, and a pixel in the queue.
-    localparam P = 2 * C + 1;
-    localparam K = 1 + A + D;
+    // A pixel {x, y, rgba, kept}, a slot {primary, secondary, eye, primary pixel, secondary pixel},
+    // a place with its eye, and a pixel in the queue.
+    localparam K = A + D + 1;
+    localparam X = 2 * C + `SAM_RGBA_BITS + K;
+    localparam S = 3 + 2 * X;
+    localparam P = 1 + 2 * C;
     localparam E = 1 + `SAM_RGBA_BITS + K;
-    // A short queue saves a register between memory and blend, and takes a pixel in the clock in which
-    // one leaves; a long one is for a chip where either would be the longest path.
+    // A short queue is the one of fewest gates. A long one is for a fast clock: slots come and leave
+    // through buffers, a register is behind the queue's memory, and what a slot waits for is found a
+    // clock ahead, so that it may wait a clock longer.
     localparam SHORT = SLOTS < 8;
+    localparam WORDS = SHORT ? 1 : 5;
 
-    wire [P-1:0] primary_place   = {slot_eye_i, slot_primary_x_i, slot_primary_y_i};
-    wire [P-1:0] secondary_place = {~slot_eye_i, slot_secondary_x_i, slot_secondary_y_i};
+    // The slot at work, and whether its secondary may have to wait for its place.
+    wire         front_valid, front_ready, front_primary, front_secondary, front_eye, waits;
+    wire [X-1:0] front_primary_pixel, front_secondary_pixel;
+    wire [S-1:0] front;
 
-    // Under way: the queue, then a stage before blend and two beside it.
+    assign {front_primary, front_secondary, front_eye, front_primary_pixel, front_secondary_pixel}
+        = front;
+
+    wire [P-1:0] primary_place   = {front_eye, front_primary_pixel[X-1 -: 2*C]};
+    wire [P-1:0] secondary_place = {~front_eye, front_secondary_pixel[X-1 -: 2*C]};
+
+    // In the queue, in a stage before blend and in two beside it.
     reg  [N:0]       enter_q;
     reg  [N:0]       leave_q;
     reg  [SLOTS-1:0] occupied_q;
@@ -136,9 +150,9 @@ module sam_slot_queue #(
     wire [N-1:0] enter_index = enter_q[N-1:0];
     wire [N-1:0] leave_index = leave_q[N-1:0];
     wire         empty       = enter_q == leave_q;
-    wire         idle        = empty & (stage_valid == 3'd0);
-    wire         full        = enter_q == {~leave_q[N], leave_index};
-    wire         push, pop;
+    wire         full;
+    wire         push, pop, out_busy;
+    wire         idle        = empty & (stage_valid == 3'd0) & ~out_busy;
 
     wire         room        = ~full | (SHORT & pop);
 
@@ -147,20 +161,19 @@ module sam_slot_queue #(
     // until it can pass: those after it would never pass again.
     reg          primary_gone_q;
     reg          secondary_gone_q;
-    reg          waits_q;
     wire         held;
     wire         out_taken;
-    wire primary_here   = slot_valid_i & slot_primary_i & ~primary_gone_q;
-    wire secondary_here = slot_valid_i & slot_secondary_i & ~secondary_gone_q;
+    wire primary_here   = front_valid & front_primary & ~primary_gone_q;
+    wire secondary_here = front_valid & front_secondary & ~secondary_gone_q;
     wire passes         = primary_here & ~held;
-    wire queued         = primary_here & held & (single_i | ~slot_secondary_i);
+    wire queued         = primary_here & held & (single_i | ~front_secondary);
     wire primary_done   = ~primary_here | (held ? queued & room : out_taken);
     wire secondary_done = ~secondary_here | (request_valid_o & request_ready_i);
 
-    assign request_valid_o = secondary_here & ~queued & room & ~waits_q;
+    assign request_valid_o = secondary_here & ~(primary_here & single_i) & room & ~waits;
     assign {request_eye_o, request_x_o, request_y_o} = secondary_place;
     assign push            = (queued & room) | (request_valid_o & request_ready_i);
-    assign slot_ready_o    = ~slot_valid_i | (primary_done & secondary_done);
+    assign front_ready     = primary_done & secondary_done;
 
     always @(posedge clk_i) begin
         if (rst_i) begin
@@ -171,42 +184,29 @@ module sam_slot_queue #(
         end else begin
             if (push) enter_q <= enter_q + {{N{1'b0}}, 1'b1};
             if (pop)  leave_q <= leave_q + {{N{1'b0}}, 1'b1};
-            primary_gone_q   <= ~slot_ready_o & slot_primary_i & primary_done;
-            secondary_gone_q <= ~slot_ready_o & slot_secondary_i & secondary_done;
+            primary_gone_q   <= ~front_ready & front_primary & primary_done;
+            secondary_gone_q <= ~front_ready & front_secondary & secondary_done;
         end
     end
 
     // The queue: what all are compared by in registers, the rest in a memory.
-    reg [E-1:0] rest_q [0:SLOTS-1];
-
+    reg  [E-1:0] rest_q [0:SLOTS-1];
+    wire [P-1:0] place [0:SLOTS-1];
     wire [P-1:0] enter_place = queued ? primary_place : secondary_place;
-    wire [E-1:0] enter_rest  = queued
-        ? {1'b0, slot_primary_rgba_i, slot_primary_area_i, slot_primary_depth_i, slot_primary_write_i}
-        : {1'b1, slot_secondary_rgba_i, slot_secondary_area_i, slot_secondary_depth_i,
-           slot_secondary_write_i};
 
     always @(posedge clk_i) begin
-        if (push) rest_q[enter_index] <= enter_rest;
+        if (push) begin
+            rest_q[enter_index] <= queued ? {1'b0, front_primary_pixel[X-2*C-1:0]}
+                                          : {1'b1, front_secondary_pixel[X-2*C-1:0]};
+        end
     end
-
-    // Places are compared by their low bits, which differ where pixels are near each other: others
-    // wait in vain once in a thousand times.
-    localparam M = 11;
-    wire [M-1:0] next_mark      = {next_eye_i, next_x_i[5:0], next_y_i[3:0]};
-    wire [M-1:0] primary_mark   = {slot_eye_i, slot_primary_x_i[5:0], slot_primary_y_i[3:0]};
-    wire [M-1:0] secondary_mark = {~slot_eye_i, slot_secondary_x_i[5:0], slot_secondary_y_i[3:0]};
-
-    wire [P-1:0]     place [0:SLOTS-1];
-    wire [SLOTS-1:0] same_eye, same_place;
 
     genvar i;
     generate
         for (i = 0; i < SLOTS; i = i + 1) begin : g_place
             reg [P-1:0] place_q;
 
-            assign place[i]      = place_q;
-            assign same_eye[i]   = occupied_q[i] & (place_q[P-1] == slot_eye_i);
-            assign same_place[i] = occupied_q[i] & ({place_q[P-1], place_q[C +: 6], place_q[3:0]} == next_mark);
+            assign place[i] = place_q;
 
             always @(posedge clk_i) begin
                 if (push & (enter_index == i)) place_q <= enter_place;
@@ -218,120 +218,218 @@ module sam_slot_queue #(
         end
     endgenerate
 
-    // Whether a pixel of the primary's eye is under way, or all go to one display.
-    wire [2:0] stage_eye, stage_same;
+    // All that is under way: in the queue and its stages, and in slots before and after them. Places
+    // are compared by their low bits, which differ where pixels are near each other: others wait in
+    // vain once in a thousand times.
+    localparam M = 11;
+    localparam I = SLOTS + 3;
+    localparam U = I + 2 * WORDS;
 
-    assign held = single_i | (same_eye != {SLOTS{1'b0}}) | (stage_eye != 3'd0);
-
-    // The next slot is compared with all that is under way and with the slot before it. As that
-    // takes a clock, what it finds may have left since.
-    wire meets = (same_place != {SLOTS{1'b0}}) | (stage_same != 3'd0)
-               | (slot_valid_i & slot_primary_i & (primary_mark == next_mark))
-               | (slot_valid_i & slot_secondary_i & (secondary_mark == next_mark));
-
-    always @(posedge clk_i) begin
-        if (slot_ready_o) waits_q <= meets;
-        else if (idle)    waits_q <= 1'b0;
-    end
-
-    // First in the queue: a secondary waits for its response, a primary until nothing is before it.
-    wire [P-1:0]               first_place = place[leave_index];
-    wire                       first_read;
-    wire [`SAM_RGBA_BITS-1:0]  first_rgba;
-    wire [K-1:0]               first_kept;
-    wire                       answer_valid, answer_ready, visible;
-
-    assign {first_read, first_rgba, first_kept} = rest_q[leave_index];
-    assign answer_valid     = response_valid_i & ~empty & first_read;
-    assign response_ready_o = answer_ready & ~empty & first_read;
-    assign visible          = (DEPTH_EXTERNAL != 0) | (first_kept[1 +: D] < response_depth_i);
-
-    wire       primary_first = ~empty & ~first_read & (stage_valid == 3'd0);
-    wire [7:0] pixel_alpha;
-    wire [K-1:0] pixel_kept;
-
-    assign pixel_area_o = pixel_kept[1 + D +: A];
-    assign pop          = (answer_valid & answer_ready) | (primary_first & out_taken);
-
-    localparam W = 1 + 2 * `SAM_RGB_BITS + 8 + K + P;
-    wire [W-1:0] answer = {visible, response_rgb_i, first_rgba, first_kept, first_place};
-    wire [W-1:0] pixel;
-    wire [P-1:0] pixel_place;
-
-    assign {pixel_visible_o, pixel_background_o, pixel_rgba_o, pixel_kept, pixel_place} = pixel;
+    wire [WORDS-1:0]   word_valid;
+    wire [WORDS*S-1:0] word;
+    wire [U-1:0]       way_valid, way_eye, alike;
+    wire [M-1:0]       next_mark = {next_eye_i, next_x_i[5:0], next_y_i[3:0]};
 
     generate
-        if (SHORT) begin : g_no_answer
-            assign pixel_valid_o  = answer_valid;
-            assign answer_ready   = pixel_ready_i;
-            assign pixel          = answer;
-            assign stage_valid[0] = 1'b0;
-        end else begin : g_answer
-            // Between memory and blend, whose multipliers have fixed places on a chip and are far
-            // from both.
-            sam_stage #(.WIDTH(W)) u_answer (
-                .clk_i(clk_i), .rst_i(rst_i),
-                .in_valid_i(answer_valid), .in_ready_o(answer_ready), .in_data_i(answer),
-                .out_valid_o(pixel_valid_o), .out_ready_i(pixel_ready_i), .out_data_o(pixel)
-            );
-            assign stage_valid[0] = pixel_valid_o;
+        for (i = 0; i < U; i = i + 1) begin : g_way
+            wire [P-1:0] at;
+
+            if (i < SLOTS) begin : g_queue
+                assign way_valid[i] = occupied_q[i];
+                assign at           = place[i];
+            end else if (i < I) begin : g_stage
+                assign way_valid[i] = stage_valid[i-SLOTS];
+                assign at           = stage_place[i-SLOTS];
+            end else begin : g_slot
+                localparam W = (i - I) / 2;
+                localparam T = (i - I) % 2;
+                wire [S-1:0] slot = word[W*S +: S];
+
+                // The secondary is the lower pixel, of the other eye.
+                assign way_valid[i] = word_valid[W] & slot[S-2+T];
+                assign at           = {slot[S-3] ^ (T == 0), slot[T*X+X-1 -: 2*C]};
+                wire unused = &{1'b0, slot};
+            end
+            assign way_eye[i] = at[P-1];
+            assign alike[i]   = way_valid[i] & ({at[P-1], at[C +: 6], at[3:0]} == next_mark);
+            wire unused = &{1'b0, at};
         end
     endgenerate
-    assign stage_place[0] = pixel_place;
+
+    // A primary is held where a pixel of its eye is in the queue or its stages, or all go to one
+    // display.
+    wire [S-1:0] slot = {
+        slot_primary_i, slot_secondary_i, slot_eye_i,
+        slot_primary_x_i, slot_primary_y_i, slot_primary_rgba_i,
+        slot_primary_area_i, slot_primary_depth_i, slot_primary_write_i,
+        slot_secondary_x_i, slot_secondary_y_i, slot_secondary_rgba_i,
+        slot_secondary_area_i, slot_secondary_depth_i, slot_secondary_write_i
+    };
+    wire [S:0] out, leaving;
+    wire       out_valid;
+
+    // The next slot is compared with all that is under way. As that takes a clock, what it finds may
+    // have left since.
+    generate
+        if (SHORT) begin : g_short
+            reg waits_q;
+
+            always @(posedge clk_i) begin
+                if (slot_ready_o) waits_q <= alike != {U{1'b0}};
+                else if (idle)    waits_q <= 1'b0;
+            end
+
+            assign waits        = waits_q;
+            assign held         = single_i | ((way_valid[I-1:0] & (way_eye[I-1:0] ~^ {I{front_eye}})) != {I{1'b0}});
+            assign full         = enter_q == {~leave_q[N], leave_index};
+            assign front_valid  = slot_valid_i;
+            assign front        = slot;
+            assign slot_ready_o = front_ready;
+            assign word         = slot;
+            assign word_valid   = slot_valid_i;
+            assign out_valid_o  = out_valid;
+            assign out_taken    = out_ready_i;
+            assign leaving      = out;
+            assign out_busy     = 1'b0;
+        end else begin : g_long
+            reg  [U-1:0] alike_q;
+            reg  [1:0]   eyes_q;
+            reg          idle_q, full_q, drained_q, epoch_q, slot_epoch_q;
+            wire         back_valid, out_back_valid, front_near, front_far, front_epoch;
+            wire [2:0]   back_meets;
+            wire [S-1:0] back;
+            wire [S:0]   out_back;
+            wire [N:0]   used = enter_q - leave_q;
+
+            // What a slot met: another slot, or what was on its way, which matters no longer when an
+            // epoch has ended by all of that having left. Two ends are taken for none.
+            localparam FAR = I + 4;
+            wire near = alike_q[U-1:FAR] != {(U - FAR){1'b0}};
+            wire far  = alike_q[FAR-1:0] != {FAR{1'b0}};
+
+            sam_buffer #(.WIDTH(S + 3)) u_slots (
+                .clk_i(clk_i), .rst_i(rst_i),
+                .in_valid_i(slot_valid_i), .in_ready_o(slot_ready_o),
+                .in_data_i({near, far, slot_epoch_q, slot}),
+                .out_valid_o(front_valid), .out_ready_i(front_ready),
+                .out_data_o({front_near, front_far, front_epoch, front}),
+                .back_valid_o(back_valid), .back_data_o({back_meets, back})
+            );
+            sam_buffer #(.WIDTH(S + 1)) u_out (
+                .clk_i(clk_i), .rst_i(rst_i),
+                .in_valid_i(out_valid), .in_ready_o(out_taken), .in_data_i(out),
+                .out_valid_o(out_valid_o), .out_ready_i(out_ready_i), .out_data_o(leaving),
+                .back_valid_o(out_back_valid), .back_data_o(out_back)
+            );
+
+            always @(posedge clk_i) begin
+                if (~slot_valid_i | slot_ready_o) {alike_q, slot_epoch_q} <= {alike, epoch_q};
+
+                drained_q <= idle;
+                epoch_q   <= ~rst_i & (epoch_q ^ (idle & ~drained_q));
+
+                if (front_ready) idle_q <= 1'b0;
+                else if (idle)   idle_q <= 1'b1;
+
+                eyes_q[0] <= ((way_valid[I-1:0] & ~way_eye[I-1:0]) != {I{1'b0}}) | (push & ~enter_place[P-1]);
+                eyes_q[1] <= ((way_valid[I-1:0] &  way_eye[I-1:0]) != {I{1'b0}}) | (push &  enter_place[P-1]);
+
+                if (rst_i) full_q <= 1'b0;
+                else       full_q <= ~pop & (full_q | (push & (used == SLOTS[N:0] - {{N{1'b0}}, 1'b1})));
+            end
+
+            assign waits      = (front_near | (front_far & (front_epoch == epoch_q))) & ~idle_q;
+            assign held       = single_i | eyes_q[front_eye];
+            assign full       = full_q;
+            assign out_busy   = out_valid_o;
+            // The slots come last.
+            assign word       = {slot, back, front, out_back[S-1:0], leaving[S-1:0]};
+            assign word_valid = {slot_valid_i, back_valid, front_valid, out_back_valid, out_valid_o};
+            wire unused = &{1'b0, back_meets, out_back[S]};
+        end
+    endgenerate
+
+    // First in the queue: a secondary waits for its response, a primary until nothing is before it.
+    wire [P-1:0]              first_place;
+    wire                      first_valid, first_taken, first_read;
+    wire [`SAM_RGBA_BITS-1:0] first_rgba;
+    wire [K-1:0]              first_kept;
+
+    generate
+        if (SHORT) begin : g_no_first
+            assign first_valid = ~empty;
+            assign {first_place, first_read, first_rgba, first_kept}
+                = {place[leave_index], rest_q[leave_index]};
+            assign pop            = first_taken;
+            assign stage_valid[0] = 1'b0;
+        end else begin : g_first
+            wire first_ready;
+
+            sam_stage #(.WIDTH(P + E)) u_first (
+                .clk_i(clk_i), .rst_i(rst_i),
+                .in_valid_i(~empty), .in_ready_o(first_ready),
+                .in_data_i({place[leave_index], rest_q[leave_index]}),
+                .out_valid_o(first_valid), .out_ready_i(first_taken),
+                .out_data_o({first_place, first_read, first_rgba, first_kept})
+            );
+            assign pop            = ~empty & first_ready;
+            assign stage_valid[0] = first_valid;
+        end
+    endgenerate
+    assign stage_place[0] = first_place;
+
+    wire primary_first = first_valid & ~first_read & (stage_valid[2:1] == 2'd0);
+
+    assign pixel_valid_o      = response_valid_i & first_valid & first_read;
+    assign response_ready_o   = pixel_ready_i & first_valid & first_read;
+    assign pixel_rgba_o       = first_rgba;
+    assign pixel_area_o       = first_kept[1 + D +: A];
+    assign pixel_background_o = response_rgb_i;
+    assign pixel_visible_o    = (DEPTH_EXTERNAL != 0) | (first_kept[1 +: D] < response_depth_i);
+    assign first_taken        = (pixel_valid_o & pixel_ready_i) | (primary_first & out_taken);
 
     // In step with the two stages of blend.
     wire         step_ready, factor_ready, colour_valid;
     wire [7:0]   factor_alpha, colour_alpha;
     wire [K-1:0] factor_kept, colour_kept;
-
-    assign pixel_alpha = pixel_rgba_o[`SAM_RGBA_BITS-1:`SAM_RGB_BITS];
+    wire [P-1:0] factor_place;
 
     sam_stage #(.WIDTH(8 + K + P)) u_factor (
         .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(pixel_valid_o), .in_ready_o(step_ready),
-        .in_data_i({pixel_alpha, pixel_kept, pixel_place}),
+        .in_data_i({first_rgba[`SAM_RGBA_BITS-1:`SAM_RGB_BITS], first_kept, first_place}),
         .out_valid_o(stage_valid[1]), .out_ready_i(factor_ready),
-        .out_data_o({factor_alpha, factor_kept, stage_place[1]})
+        .out_data_o({factor_alpha, factor_kept, factor_place})
     );
+    assign stage_place[1] = factor_place;
+
     sam_stage #(.WIDTH(8 + K + P)) u_colour (
         .clk_i(clk_i), .rst_i(rst_i), .in_valid_i(stage_valid[1]), .in_ready_o(factor_ready),
-        .in_data_i({factor_alpha, factor_kept, stage_place[1]}),
+        .in_data_i({factor_alpha, factor_kept, factor_place}),
         .out_valid_o(colour_valid), .out_ready_i(colour_ready_o),
         .out_data_o({colour_alpha, colour_kept, stage_place[2]})
     );
     assign stage_valid[2] = colour_valid;
 
-    generate
-        for (i = 0; i < 3; i = i + 1) begin : g_stage
-            assign stage_eye[i]  = stage_valid[i] & (stage_place[i][P-1] == slot_eye_i);
-            assign stage_same[i] = stage_valid[i] & ({stage_place[i][P-1], stage_place[i][C +: 6], stage_place[i][3:0]} == next_mark);
-        end
-    endgenerate
-
     // Output: a primary that passes beside the pixel from the queue, which is of the other eye.
-    wire         out_eye;
-    wire [P-1:0] out_place;
+    wire         out_secondary = primary_first | (colour_valid_i & colour_visible_i);
+    wire [P-1:0] out_place     = primary_first ? first_place : stage_place[2];
 
-    assign out_place = primary_first ? first_place : stage_place[2];
-    assign {out_eye, out_secondary_x_o, out_secondary_y_o} = out_place;
-    assign {out_secondary_area_o, out_secondary_depth_o, out_secondary_write_o}
-        = primary_first ? first_kept : colour_kept;
-    assign out_secondary_rgba_o = primary_first ? first_rgba : {colour_alpha, colour_rgb_i};
-    assign out_blended_o        = ~primary_first;
-    assign out_secondary_o      = primary_first | (colour_valid_i & colour_visible_i);
-    assign out_primary_o        = passes;
-    assign out_eye_o            = out_secondary_o ? ~out_eye : slot_eye_i;
-    assign out_valid_o          = out_primary_o | out_secondary_o;
-    assign out_taken            = out_ready_i;
-    assign colour_ready_o       = ~colour_visible_i | out_ready_i;
+    assign out = {
+        ~primary_first, passes, out_secondary, out_secondary ? ~out_place[P-1] : front_eye,
+        front_primary_pixel, out_place[P-2:0],
+        primary_first ? {first_rgba, first_kept} : {colour_alpha, colour_rgb_i, colour_kept}
+    };
+    assign out_valid      = passes | out_secondary;
+    assign colour_ready_o = ~colour_visible_i | out_taken;
+    assign {
+        out_blended_o, out_primary_o, out_secondary_o, out_eye_o,
+        out_primary_x_o, out_primary_y_o, out_primary_rgba_o,
+        out_primary_area_o, out_primary_depth_o, out_primary_write_o,
+        out_secondary_x_o, out_secondary_y_o, out_secondary_rgba_o,
+        out_secondary_area_o, out_secondary_depth_o, out_secondary_write_o
+    } = leaving;
 
-    assign out_primary_x_o      = slot_primary_x_i;
-    assign out_primary_y_o      = slot_primary_y_i;
-    assign out_primary_rgba_o   = slot_primary_rgba_i;
-    assign out_primary_area_o   = slot_primary_area_i;
-    assign out_primary_depth_o  = slot_primary_depth_i;
-    assign out_primary_write_o  = slot_primary_write_i;
-
-    wire unused = &{1'b0, step_ready, next_x_i, next_y_i};
+    wire unused = &{1'b0, step_ready, next_x_i, next_y_i, way_eye};
 endmodule
 
 `default_nettype wire

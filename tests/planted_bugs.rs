@@ -342,16 +342,19 @@ fn slot_queue() {
         &[
             ("first_kept[1 +: D] < response_depth_i", "first_kept[1 +: D] <= response_depth_i"),
             ("(colour_valid_i & colour_visible_i)", "(colour_valid_i | colour_visible_i)"),
-            ("place_q[P-1] == slot_eye_i", "place_q[P-1] != slot_eye_i"),
+            ("eyes_q[front_eye]", "eyes_q[~front_eye]"),
+            ("out_ready_i(first_taken)", "out_ready_i(1'b1)"),
+            ("full_q | (push &", "full_q & (push &"),
             ("~secondary_here | (request", "~secondary_here & (request"),
             ("held & (single_i |", "held & (single_i &"),
-            ("primary_first ? first_kept", "~primary_first ? first_kept"),
+            ("primary_first ? {first_rgba", "~primary_first ? {first_rgba"),
         ],
     );
     hybrid.catches(
         "paper",
         file,
         &[
+            ("way_eye[I-1:0] ~^", "way_eye[I-1:0] ^"),
             ("~full | (SHORT & pop)", "~full | (SHORT | pop)"),
             ("(queued & room) | (", "(queued | room) & ("),
         ],
@@ -368,7 +371,7 @@ fn slot_queue() {
 #[test]
 fn slot_queue_in_one_scene() {
     let copy = copy_of_rtl();
-    let (find, replace) = ("& room & ~waits_q", "& room");
+    let (find, replace) = ("& room & ~waits", "& room");
     plant(copy.path(), "sam_slot_queue.v", find, replace);
     let settings = settings("default", &[]);
     let formats = Formats::new(&settings.config);
@@ -441,6 +444,16 @@ fn parts_of_the_systems() {
         ],
     );
     minimal.catches("default", "sam_stage.v", &[("else if (in_ready_o)", "else if (~in_ready_o)")]);
+    within(Target::Hybrid, Target::Hybrid).catches(
+        "default",
+        "sam_buffer.v",
+        &[
+            ("read_q ? data1_q : data0_q", "read_q ? data0_q : data1_q"),
+            ("& ~(read & read_q)) |", "& (read & read_q)) |"),
+            ("write_q ^ write", "write_q | write"),
+            ("(write & write_q)", "(write | write_q)"),
+        ],
+    );
     minimal.catches("paper", "sam_popcount.v", &[("ones = ones + {", "ones = ones - {")]);
     minimal.catches(
         "default",

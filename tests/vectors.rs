@@ -90,7 +90,7 @@ fn a_replay_on_wrong_verilog_says_fail() {
             "beat_valid_i | beat_end_i",
         ),
         (Target::XInterpolator, "sam_x_interpolator.v", "(last_q | beat_valid_i)", "last_q"),
-        (Target::Hybrid, "sam_slot_queue.v", "answer_depth < response", "answer_depth > response"),
+        (Target::Hybrid, "sam_slot_queue.v", "D] < response", "D] > response"),
         (Target::Minimal, "sam_redirect.v", "slot_eye_i ^ ~left_primary", "slot_eye_i"),
     ] {
         let (folder, copy) = (folder(), copy_of_rtl());

@@ -169,9 +169,9 @@ fn filter(text: &mut String) {
     table(text, "SAM_THREE_TERM_P", 4, |n| THREE_TERM[n].0);
     table(text, "SAM_THREE_TERM_Q", 4, |n| THREE_TERM[n].1);
     table(text, "SAM_THREE_TERM_R", 4, |n| THREE_TERM[n].2);
-    text.push_str("// ceil(2^SHIFT / n)\n");
+    text.push_str("// ceil(2^SHIFT / n), so wide that no multiplication is in an index\n");
     define(text, "", "SAM_RECIPROCAL_SHIFT", |_| RECIPROCAL_SHIFT);
-    table(text, "SAM_RECIPROCAL", RECIPROCAL_SHIFT + 1, |n| reciprocal(n as u32));
+    table(text, "SAM_RECIPROCAL", 32, |n| reciprocal(n as u32));
 }
 
 #[cfg(test)]
