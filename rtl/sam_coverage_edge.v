@@ -71,6 +71,34 @@ module sam_coverage_edge #(
         sample_4[W-2:0], sample_6[W-2:0], sample_7[W-2:0], sample_8[W-2:0], sample_10[W-2:0],
         sample_11[W-2:0], sample_12[W-2:0], sample_13[W-2:0], sample_14[W-2:0], sample_15[W-2:0]
     };
+
+`ifdef FORMAL
+    // The samples by their definition, in more bits than any of them needs.
+    localparam V = E + 4;
+    wire signed [V-1:0] f_value = $signed({value_i, low_i});
+    wire signed [V-1:0] f_a = $signed(a_i);
+    wire signed [V-1:0] f_b = $signed(b_i);
+    // Samples are an odd number of half pixels apart, so half the value at sample (1, 1), rounded down,
+    // and whole steps from there have the same signs.
+    wire signed [V-1:0] f_twice = f_value - f_a - f_b;
+    wire signed [V-1:0] f_here  = f_twice >>> 1;
+    wire [15:0] f_mask, f_same;
+    genvar f_k;
+    generate
+        for (f_k = 0; f_k < 16; f_k = f_k + 1) begin : g_f_sample
+            wire signed [V-1:0] f_sample = f_value + (2 * (f_k % 4) - 3) * f_a + (2 * (f_k / 4) - 3) * f_b;
+            wire signed [V-1:0] f_half   = f_here + (f_k % 4 - 1) * f_a + (f_k / 4 - 1) * f_b;
+            assign f_mask[f_k] = f_half >= 0;
+            assign f_same[f_k] = f_sample == {f_half[V-2:0], f_twice[0]};
+        end
+    endgenerate
+    always @* begin
+        // Sample k + 4 l is covered where half of 8 E + low + (2k - 3) a + (2l - 3) b is not negative.
+        p_samples: assert (mask_o == f_mask);
+        // Half of that, rounded down, is negative where that is.
+        p_halves: assert (f_same == 16'hffff);
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -2,6 +2,7 @@
 //! tables in the pages of `docs/`.
 
 use crate::cli;
+use crate::prove::record;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::{Record, RecordError};
 use std::fmt::Write;
@@ -24,6 +25,8 @@ pub enum Generated {
     Header,
     /// The page of a unit or system: its interface and what it costs.
     Page(Target),
+    /// `docs/formal.md`: what is proved.
+    Formal,
     /// `README.md`: what all of them cost.
     Readme,
     /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
@@ -50,6 +53,9 @@ pub enum GenerateError {
     /// There is no record of area and timing.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// There is no record of what is proved.
+    #[error(transparent)]
+    Proofs(#[from] record::RecordError),
 }
 
 /// Line after a generated part of a page.
@@ -59,7 +65,11 @@ impl Generated {
     /// All generated files.
     pub fn all() -> impl Iterator<Item = Generated> {
         let pages = Target::ALL.into_iter().map(Generated::Page);
-        [Generated::Header].into_iter().chain(pages).chain([Generated::Readme, Generated::Theory])
+        [Generated::Header].into_iter().chain(pages).chain([
+            Generated::Formal,
+            Generated::Readme,
+            Generated::Theory,
+        ])
     }
 
     /// Path below the workspace.
@@ -67,6 +77,7 @@ impl Generated {
         match self {
             Generated::Header => "rtl/sam_formats.vh".into(),
             Generated::Page(target) => format!("docs/{}.md", target.name()),
+            Generated::Formal => "docs/formal.md".into(),
             Generated::Readme => "README.md".into(),
             Generated::Theory => "docs/theory.md".into(),
         }
@@ -79,6 +90,11 @@ impl Generated {
             Generated::Page(target) => {
                 let text = self.between(present, "interface", &interface_tables(target))?;
                 self.between(&text, "synthesis", &Record::read(workspace)?.page_table(target))
+            }
+            Generated::Formal => {
+                let record = record::Record::read(workspace)?;
+                let text = self.between(present, "proofs", &record.tables(workspace))?;
+                self.between(&text, "netlists", &record.netlist_table())
             }
             Generated::Readme => {
                 self.between(present, "synthesis", &Record::read(workspace)?.overview())

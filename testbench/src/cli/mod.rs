@@ -22,6 +22,7 @@ mod compare;
 mod cosim;
 mod generate;
 mod info;
+mod prove;
 mod render;
 mod reproduce;
 mod synth;
@@ -98,6 +99,8 @@ enum Command {
     Reproduce(reproduce::ReproduceArgs),
     /// Measure gates, LUTs and clock of targets, and compare with the committed record
     Synth(synth::SynthArgs),
+    /// Prove the properties of the Verilog, plant bugs that they catch, prove netlists
+    Prove(prove::ProveArgs),
     /// List targets, configurations, parameters, scenes, projections and experiments
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
@@ -225,6 +228,7 @@ pub fn main() -> ExitCode {
         Command::Compare(args) => compare::run(args),
         Command::Reproduce(args) => reproduce::run(args),
         Command::Synth(args) => synth::run(args),
+        Command::Prove(args) => prove::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
         Command::Generate(args) => generate::run(args),
@@ -324,6 +328,11 @@ fn rtl_folder(named: &Option<PathBuf>) -> Result<PathBuf, Failure> {
             "no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into(),
         )
     })
+}
+
+/// The folder of the workspace, which there must be.
+fn root() -> Result<PathBuf, Failure> {
+    workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
 }
 
 /// The file by which a workspace is known.
