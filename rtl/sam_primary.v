@@ -188,8 +188,6 @@ module sam_primary #(
         p_mask: assert (ANTIALIAS == 1 | ~beat_valid_o | beat_centre_o | ~beat_mask_o);
         // Lemma: where the LOADs are.
         lemma: assert (f_walks == (visited & is_load) & f_planed == (beat_valid_o & beat_op_o == `SAM_OP_LOAD));
-        // Nothing waits inside: what was taken is offered two clocks later at the latest.
-        p_prompt: assert (~beat_ready_i | ~walk_valid_i | ~planes_valid_i | walk_ready_o | visited);
     end
 `endif
 endmodule

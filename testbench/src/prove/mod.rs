@@ -91,7 +91,8 @@ const LIMIT: u32 = 150;
 
 /// Builds beside those of the named configurations: narrow ones, where wide ones would take too long,
 /// and ones that the systems use.
-const VARIANTS: [(&str, &str, &[(&str, u32)]); 6] = [
+const VARIANTS: [(&str, &str, &[(&str, u32)]); 7] = [
+    ("filter_division", "three terms", &[("FILTER_TERMS", 3)]),
     ("edge_interpolator", "4 bits", &[("BITS", 4), ("SLOPE_BITS", 3), ("TILT", 1)]),
     ("edge_interpolator", "depth", &[("BITS", 43), ("SLOPE_BITS", 43), ("TILT", 0)]),
     ("clamp", "depth", &[("BITS", 24)]),
@@ -202,8 +203,9 @@ impl Prover {
                 Task { folder, programs: &programs, module: format!("sam_{}", build.module) };
             task.read(&commands)?;
             let all = task.labels()?;
-            let (kept, others): (Vec<_>, Vec<_>) =
-                all.into_iter().partition(|label| name_of(label) == bug.property);
+            let (kept, others): (Vec<_>, Vec<_>) = all
+                .into_iter()
+                .partition(|label| name_of(label).strip_prefix("p_") == Some(bug.property));
             if kept.is_empty() {
                 return Err(bug.fault("there is no such property"));
             }
