@@ -88,8 +88,16 @@ module sam_coverage_edge #(
             assign f_mask[f_k] = f_half >= 0;
         end
     endgenerate
-    // Sample k + 4 l is covered where 8 E + low + (2k - 3) a + (2l - 3) b is not negative.
-    always @* p_samples: assert (mask_o == f_mask);
+    always @* begin
+        // Sample k of the upper row is covered where 8 E + low + (2k - 3) a - 3 b is not negative,
+        p_row0: assert (mask_o[3:0] == f_mask[3:0]);
+        // of the second row where 8 E + low + (2k - 3) a - b is not,
+        p_row1: assert (mask_o[7:4] == f_mask[7:4]);
+        // of the third row where 8 E + low + (2k - 3) a + b is not,
+        p_row2: assert (mask_o[11:8] == f_mask[11:8]);
+        // and of the lower row where 8 E + low + (2k - 3) a + 3 b is not.
+        p_row3: assert (mask_o[15:12] == f_mask[15:12]);
+    end
 `endif
 endmodule
 

@@ -80,6 +80,12 @@ impl Effort {
         Effort { induction, bound }
     }
 
+    /// Whether a module is in the short set: those whose first build takes a few seconds.
+    pub fn is_quick(module: &str) -> bool {
+        !["blend", "coverage_edge", "filter_division", "primary_planes", "hybrid_planes"]
+            .contains(&module)
+    }
+
     /// What a default test can afford.
     pub fn quick(self) -> Effort {
         Effort { bound: self.bound.min(4), ..self }
@@ -245,6 +251,11 @@ fn name_of(label: &str) -> &str {
     label.rsplit('.').next().unwrap_or(label)
 }
 
+/// Whether a label is that of a property, not of a lemma.
+pub fn is_property(label: &str) -> bool {
+    name_of(label).starts_with("p_")
+}
+
 /// The parameters of a module in a configuration.
 fn parameters(module: &str, text: &str, config: &Config) -> Vec<(String, u32)> {
     let own = |(name, value): (&str, u32)| (name.to_owned(), value);
@@ -315,45 +326,76 @@ impl Task<'_> {
         Ok(names.map(|(_, name)| name.to_owned()).collect())
     }
 
-    /// Induction of all that can be proved so, then so many clocks from reset.
+    /// All properties together or, where that takes too long, each by itself with the lemmas.
     fn prove(&self, effort: Effort) -> Result<BTreeMap<String, Verdict>, FlowError> {
         let labels = self.labels()?;
-        // Those without which the others are an induction: whatever fails is left out until none does.
-        let mut left_out: Vec<String> = Vec::new();
+        let (alone, lemmas): (Vec<_>, Vec<_>) =
+            labels.iter().cloned().partition(|label| is_property(label));
+        // Without registers nothing is gained by proving all at once.
+        if effort.induction > 1 || alone.len() == 1 {
+            let (verdicts, stopped) = self.prove_some(&labels, &[], effort)?;
+            if !stopped || alone.len() == 1 {
+                return Ok(verdicts);
+            }
+        }
+        let mut all = BTreeMap::new();
+        for label in &alone {
+            let others: Vec<String> = alone.iter().filter(|l| *l != label).cloned().collect();
+            let with_it: Vec<String> = lemmas.iter().chain([label]).cloned().collect();
+            all.extend(self.prove_some(&with_it, &others, effort)?.0);
+        }
+        Ok(all)
+    }
+
+    /// Induction of what can be proved so, then so many clocks from reset; also whether a prover was
+    /// stopped. The assertions are `labels`, those that there are without `others`.
+    fn prove_some(
+        &self,
+        labels: &[String],
+        others: &[String],
+        effort: Effort,
+    ) -> Result<(BTreeMap<String, Verdict>, bool), FlowError> {
+        // What fails is left out until the rest is an induction.
+        let mut left_out = others.to_vec();
+        let mut stopped = false;
         let depth = loop {
-            if left_out.len() == labels.len() {
+            if left_out.len() == others.len() + labels.len() {
                 break 0;
             }
             match self.run(&left_out, &["-i"], effort.induction)? {
                 Run::Passed(depth) => break depth,
                 Run::Failed { labels, .. } if !labels.is_empty() => left_out.extend(labels),
-                _ => {
-                    left_out.clone_from(&labels);
+                run => {
+                    stopped = matches!(run, Run::Stopped(_));
+                    left_out.extend_from_slice(labels);
                     break 0;
                 }
             }
         };
-        let all = left_out.is_empty();
-        // The base of the induction.
-        let bound = if all { effort.induction } else { effort.bound };
-        let verdict = |label: &String, reached: u32| match left_out.contains(label) {
-            false if reached >= effort.induction => Verdict::Induction(depth),
-            _ => Verdict::Bounded(reached),
+        let is_inductive = |label: &String| !left_out.contains(label);
+        let inductive = |label: &String| (label.clone(), Verdict::Induction(depth));
+        // What holds in every state needs no base.
+        if depth == 0 && labels.iter().all(is_inductive) {
+            return Ok((labels.iter().map(inductive).collect(), false));
+        }
+        let bound = match labels.iter().all(is_inductive) {
+            true => effort.induction,
+            false => effort.bound,
         };
-        let verdicts = match self.bounded(&[], bound)? {
-            Run::Passed(_) => labels.iter().map(|l| (l.clone(), verdict(l, bound))).collect(),
+        let (reached, failed) = match self.bounded(others, bound)? {
+            Run::Passed(_) => (bound, Vec::new()),
+            Run::Failed { step, labels } => (step, labels),
             Run::Stopped(reached) => {
-                labels.iter().map(|l| (l.clone(), verdict(l, reached))).collect()
+                stopped = true;
+                (reached, Vec::new())
             }
-            Run::Failed { step, labels: failed } => labels
-                .iter()
-                .map(|l| match failed.contains(l) {
-                    true => (l.clone(), Verdict::Fails(step)),
-                    false => (l.clone(), verdict(l, step)),
-                })
-                .collect(),
         };
-        Ok(verdicts)
+        let verdict = |label: &String| match is_inductive(label) {
+            _ if failed.contains(label) => (label.clone(), Verdict::Fails(reached)),
+            true if reached >= effort.induction => inductive(label),
+            _ => (label.clone(), Verdict::Bounded(reached)),
+        };
+        Ok((labels.iter().map(verdict).collect(), stopped))
     }
 
     /// So many clocks from reset.
