@@ -113,6 +113,86 @@ module sam_blend #(
 
     assign colour_valid_o = colour_valid_q;
     assign colour_tag_o   = colour_tag_q;
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The pixels inside, at most two, told from the ports: where the oldest is, and its numbers.
+    localparam AB = `SAM_AREA_BITS(ANTIALIAS);
+    localparam FB = 2 * `SAM_RGB_BITS + 8 + AB + TAG_BITS;
+    wire f_take = pixel_valid_i & pixel_ready_o;
+    wire f_give = colour_valid_o & colour_ready_i;
+    wire [FB-1:0] f_new = {pixel_rgb_i, pixel_background_i, pixel_alpha_i, pixel_area_i, pixel_tag_i};
+    reg  [1:0]    f_inside;
+    reg  [FB-1:0] f_first, f_second;
+    wire [1:0]    f_left = f_inside - f_give;
+    wire [`SAM_RGB_BITS-1:0] f_rgb, f_background;
+    wire [7:0]          f_alpha;
+    wire [AB-1:0]       f_area;
+    wire [TAG_BITS-1:0] f_tag;
+    assign {f_rgb, f_background, f_alpha, f_area, f_tag} = f_first;
+
+    always @(posedge clk_i) begin
+        f_inside <= rst_i ? 0 : f_left + f_take;
+        if (f_give) f_first <= f_second;
+        if (f_take & f_left == 0) f_first  <= f_new;
+        if (f_take & f_left == 1) f_second <= f_new;
+        assume (`SAM_WAITS(pixel_valid_i, pixel_ready_o, f_new));
+        assume (~pixel_valid_i | pixel_area_i <= `SAM_FULL_AREA(ANTIALIAS));
+    end
+
+    // What the registers hold of them.
+    wire [FB-1:0] f_in_factor = colour_valid_q ? f_second : f_first;
+    wire [`SAM_RGB_BITS-1:0] f_factor_rgb, f_factor_background;
+    wire [7:0]          f_factor_alpha;
+    wire [AB-1:0]       f_factor_area;
+    wire [TAG_BITS-1:0] f_factor_tag;
+    assign {f_factor_rgb, f_factor_background, f_factor_alpha, f_factor_area, f_factor_tag} = f_in_factor;
+    wire [8:0]  f_factor_whole = f_factor_alpha + f_factor_alpha[7];
+    wire [13:0] f_factor_part  = f_factor_whole * f_factor_area + 8;
+    wire [8:0]  f_factor = ANTIALIAS == 1 ? f_factor_part >> 4 : f_factor_area != 0 ? f_factor_whole : 0;
+    wire [CHANNELS-1:0] f_differences;
+    genvar f_i;
+    generate
+        for (f_i = 0; f_i < CHANNELS; f_i = f_i + 1) begin : g_f
+            assign f_differences[f_i] = g_channel[f_i].difference_q
+                == {1'b0, f_factor_rgb[8*f_i +: 8]} - {1'b0, f_factor_background[8*f_i +: 8]};
+        end
+    endgenerate
+
+    // One channel, whichever: colour, background and what comes out.
+    wire [1:0] f_channel = $anyconst;
+    wire [7:0] f_s = f_rgb >> 8 * f_channel, f_b = f_background >> 8 * f_channel;
+    wire [7:0] f_c = colour_rgb_o >> 8 * f_channel;
+    always @* assume (f_channel < CHANNELS);
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A colour that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(colour_valid_o, colour_ready_i, {colour_rgb_o, colour_tag_o}));
+        // Never are there more than two pixels inside.
+        p_nothing_lost: assert (f_inside <= 2);
+        // No colour is offered without a pixel inside.
+        p_nothing_twice: assert (~colour_valid_o | f_inside != 0);
+        // A pixel is offered at the latest in the second clock after it was taken.
+        p_prompt: assert ($past(~f_begun | rst_i | f_inside == 0 | f_give, 1) | colour_valid_o);
+        // It comes with its tag, in order.
+        p_tag: assert (~colour_valid_o | colour_tag_o == f_tag);
+        // Alpha 0 leaves the background.
+        p_transparent: assert (~colour_valid_o | f_alpha != 0 | f_c == f_b);
+        // So does a pixel of which nothing is covered.
+        p_uncovered: assert (~colour_valid_o | f_area != 0 | f_c == f_b);
+        // Alpha 255 of a whole pixel gives the colour.
+        p_opaque: assert (~colour_valid_o | f_alpha != 255 | f_area != `SAM_FULL_AREA(ANTIALIAS) | f_c == f_s);
+        // The result lies between the two.
+        p_between: assert (~colour_valid_o | (f_s < f_b ? f_s <= f_c & f_c <= f_b : f_b <= f_c & f_c <= f_s));
+        // Lemma: registers are what the ports tell.
+        lemma: assert (f_inside == factor_valid_q + colour_valid_q
+            & (~factor_valid_q | (&f_differences & f_factor_area <= `SAM_FULL_AREA(ANTIALIAS) & factor_q == f_factor & factor_q <= 256
+                & {factor_background_q, factor_tag_q} == {f_factor_background, f_factor_tag}))
+            & (~colour_valid_q | {colour_background_q, colour_tag_q, f_area <= `SAM_FULL_AREA(ANTIALIAS)}
+                == {f_background, f_tag, 1'b1}));
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -27,6 +27,19 @@ module sam_clamp #(
     assign clamped_o = (value_i[F +: BITS] | {BITS{above}}) & {BITS{~negative}};
 
     wire unused = &{1'b0, value_i[F-1:0]};
+
+`ifdef FORMAL
+    // The floor of the value, as wide as it can be.
+    wire signed [BITS+G-1:0] f_floor = $signed(value_i) >>> F;
+    always @* begin
+        // A value within the range is its floor.
+        p_floor: assert (f_floor < 0 | f_floor >= (1 << BITS) | clamped_o == f_floor);
+        // One below becomes 0.
+        p_below: assert (f_floor >= 0 | clamped_o == 0);
+        // One above becomes the largest number.
+        p_above: assert (f_floor < (1 << BITS) | clamped_o == {BITS{1'b1}});
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -95,6 +95,28 @@ module sam_coverage #(
     assign coverage_centre_o = centre;
 
     wire unused_clock = &{1'b0, clk_i, rst_i};
+
+`ifdef FORMAL
+    wire [15:0] f_mask [0:2];
+    sam_coverage_edge #(.SUBPIXEL_BITS(SUBPIXEL_BITS)) f_edge0 (.value_i(edges_value0_i),
+        .a_i(edges_a0_i), .b_i(edges_b0_i), .low_i(edges_low0_i), .mask_o(f_mask[0]));
+    sam_coverage_edge #(.SUBPIXEL_BITS(SUBPIXEL_BITS)) f_edge1 (.value_i(edges_value1_i),
+        .a_i(edges_a1_i), .b_i(edges_b1_i), .low_i(edges_low1_i), .mask_o(f_mask[1]));
+    sam_coverage_edge #(.SUBPIXEL_BITS(SUBPIXEL_BITS)) f_edge2 (.value_i(edges_value2_i),
+        .a_i(edges_a2_i), .b_i(edges_b2_i), .low_i(edges_low2_i), .mask_o(f_mask[2]));
+    wire f_centre = $signed(edges_value0_i) >= 0 & $signed(edges_value1_i) >= 0 & $signed(edges_value2_i) >= 0;
+    always @* begin
+        // The centre is covered where no edge function is negative.
+        p_centre: assert (coverage_centre_o == f_centre);
+        // A sample is covered where it is on the inner side of all three edges; the only one is the centre.
+        p_mask: assert (coverage_mask_o == (ANTIALIAS == 0 ? f_centre : f_mask[0] & f_mask[1] & f_mask[2]));
+        // The area is 0 where no sample is covered, full where all are.
+        p_area: assert ((coverage_area_o == 0) == (coverage_mask_o == 0)
+                      & (coverage_area_o == `SAM_FULL_AREA(ANTIALIAS)) == &coverage_mask_o);
+        // Beats pass at once, each where and when its edges are.
+        p_passes: assert (coverage_valid_o == edges_valid_i & edges_ready_o == coverage_ready_i);
+    end
+`endif
 endmodule
 
 `default_nettype wire

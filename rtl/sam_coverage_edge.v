@@ -71,6 +71,34 @@ module sam_coverage_edge #(
         sample_4[W-2:0], sample_6[W-2:0], sample_7[W-2:0], sample_8[W-2:0], sample_10[W-2:0],
         sample_11[W-2:0], sample_12[W-2:0], sample_13[W-2:0], sample_14[W-2:0], sample_15[W-2:0]
     };
+
+`ifdef FORMAL
+    // The samples by their definition, in more bits than any of them needs.
+    localparam V = E + 4;
+    wire signed [V-1:0] f_value = $signed({value_i, low_i});
+    wire signed [V-1:0] f_a = $signed(a_i);
+    wire signed [V-1:0] f_b = $signed(b_i);
+    // It is (8 E + low - a - b) + 2 ((k - 1) a + (l - 1) b), of which half, rounded down, has the sign.
+    wire signed [V-1:0] f_here = (f_value - f_a - f_b) >>> 1;
+    wire [15:0] f_mask;
+    genvar f_k;
+    generate
+        for (f_k = 0; f_k < 16; f_k = f_k + 1) begin : g_f_sample
+            wire signed [V-1:0] f_half   = f_here + (f_k % 4 - 1) * f_a + (f_k / 4 - 1) * f_b;
+            assign f_mask[f_k] = f_half >= 0;
+        end
+    endgenerate
+    always @* begin
+        // Sample k of the upper row is covered where 8 E + low + (2k - 3) a - 3 b is not negative,
+        p_row0: assert (mask_o[3:0] == f_mask[3:0]);
+        // of the second row where 8 E + low + (2k - 3) a - b is not,
+        p_row1: assert (mask_o[7:4] == f_mask[7:4]);
+        // of the third row where 8 E + low + (2k - 3) a + b is not,
+        p_row2: assert (mask_o[11:8] == f_mask[11:8]);
+        // and of the lower row where 8 E + low + (2k - 3) a + 3 b is not.
+        p_row3: assert (mask_o[15:12] == f_mask[15:12]);
+    end
+`endif
 endmodule
 
 `default_nettype wire

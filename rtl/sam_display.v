@@ -65,6 +65,41 @@ module sam_display #(
     assign pixel_valid_o = valid_q;
     assign pixel_x_o     = x_q;
     assign pixel_y_o     = y_q;
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The point inside, and its place, told from the ports.
+    wire f_take = point_valid_i & point_ready_o;
+    wire f_give = pixel_valid_o & pixel_ready_i;
+    `SAM_HELD(f_held, f_take, f_give)
+    reg signed [P:0] f_x, f_y, f_width;
+    reg              f_swap, f_mirror;
+    wire signed [P:0] f_column = f_mirror ? f_width - 1 - f_x : f_x;
+
+    always @(posedge clk_i) if (f_take) begin
+        {f_swap, f_mirror} <= {point_swap_i, point_mirror_i};
+        f_x     <= $signed(point_x_i);
+        f_y     <= point_y_i;
+        f_width <= width_i;
+    end
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A pixel that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(pixel_valid_o, pixel_ready_i, {pixel_x_o, pixel_y_o}));
+        // No point is taken before the one inside has left.
+        p_nothing_lost: assert (~(f_take & f_held & ~f_give));
+        // A pixel is offered exactly when a point is inside.
+        p_nothing_twice: assert (pixel_valid_o == f_held);
+        // A point within the view keeps its distance from the left or, mirrored, from the right.
+        p_column: assert (~f_held | f_x < 0 | f_x >= f_width
+                        | (f_swap ? pixel_y_o : pixel_x_o) == f_column);
+        // The row is that of the point.
+        p_row: assert (~f_held | (f_swap ? pixel_x_o : pixel_y_o) == f_y);
+        // Lemma: outside too, the column is what the low bits say.
+        lemma: assert (~f_held | (f_swap ? pixel_y_o : pixel_x_o) == f_column[C-1:0]);
+    end
+`endif
 endmodule
 
 `default_nettype wire

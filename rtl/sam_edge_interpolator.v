@@ -116,6 +116,91 @@ module sam_edge_interpolator #(
     assign value_a_o     = a_q;
     assign value_b_o     = b_q;
     assign value_low_o   = low_q;
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The beat inside, the secondary pixel it is on counted from the LOAD, and its value, told from
+    // the ports. A row increment is that of a whole movement: row = f_row_x a + f_row_y b.
+    wire f_take = beat_valid_i & beat_ready_o;
+    wire f_give = value_valid_o & value_ready_i;
+    `SAM_HELD(f_held, f_take, f_give)
+    wire is_step = ~is_load & ~is_row;
+    wire signed [BITS-1:0] f_a_in = $signed(beat_a_i), f_b_in = $signed(beat_b_i);
+    wire signed [BITS-1:0] f_move_y = TILT == 1 ? $signed(beat_y_move_i) : 0;
+    reg  signed [BITS-1:0] f_a, f_b;
+    reg  [BITS-1:0] f_value, f_saved, f_row;
+    reg  [`SAM_LOW_BITS-1:0] f_low;
+    wire [BITS-1:0] f_moved_a = beat_move_i ? f_a : 0;
+    wire [BITS-1:0] f_moved_b = f_move_y == -2 ? -f_b - f_b : f_move_y == -1 ? -f_b : f_move_y == 1 ? f_b : 0;
+    wire [BITS-1:0] f_next = is_load ? beat_start_i : (is_row ? f_saved + f_row : f_value) + f_moved_a + f_moved_b;
+
+    always @(posedge clk_i) begin
+        if (f_take) begin
+            f_value <= f_next;
+            if (beat_save_i) f_saved <= f_next;
+            if (is_load) {f_a, f_b, f_row, f_low} <= {f_a_in, f_b_in, beat_row_i, beat_low_i};
+        end
+        assume (`SAM_WAITS(beat_valid_i, beat_ready_o, {beat_op_i, beat_save_i, beat_move_i, beat_y_move_i,
+                           beat_start_i, beat_a_i, beat_b_i, beat_row_i, beat_low_i}));
+    end
+    wire f_same = {value_q, saved_q, row_q, row_a_q, low_q} == {f_value, f_saved, f_row, f_row + f_a, f_low}
+                & $signed(a_q) == f_a & $signed(b_q) == f_b;
+    always @* assume (f_begun | f_same);
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A value that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(value_valid_o, value_ready_i, {value_value_o, value_a_o, value_b_o, value_low_o}));
+        // No beat is taken before the one inside has left.
+        p_nothing_lost: assert (~(f_take & f_held & ~f_give));
+        // A value is offered exactly when a beat is inside.
+        p_nothing_twice: assert (value_valid_o == f_held);
+        // The value is start, moved by a and b for every pixel that the secondary has moved.
+        p_value: assert (~f_held | value_value_o == f_value);
+        // Slopes and low bits are those of the last LOAD.
+        p_slopes: assert (~f_held | ($signed(value_a_o) == f_a & $signed(value_b_o) == f_b & value_low_o == f_low));
+        // Lemma: registers are what the ports tell.
+        lemma: assert (f_same);
+    end
+
+    // Of narrow values the products can be proved as well: x and y of the pixel counted from the
+    // LOAD, and the products kept as sums.
+    generate
+        if (BITS <= 8) begin : g_plane
+            reg  [BITS-1:0] f_c, f_x, f_y, f_saved_x, f_saved_y, f_row_x, f_row_y;
+            reg  [BITS-1:0] f_ax, f_by, f_saved_ax, f_saved_by, f_row_ax, f_row_by;
+            wire [BITS-1:0] f_any_x = $anyseq;
+            wire [BITS-1:0] f_any_y = $anyseq;
+            wire [BITS-1:0] f_next_x = is_load ? 0 : (is_row ? f_saved_x + f_row_x : f_x) + beat_move_i;
+            wire [BITS-1:0] f_next_y = is_load ? 0 : (is_row ? f_saved_y + f_row_y : f_y) + f_move_y;
+            wire [BITS-1:0] f_next_ax = is_load ? 0 : (is_row ? f_saved_ax + f_row_ax : f_ax) + f_moved_a;
+            wire [BITS-1:0] f_next_by = is_load ? 0 : (is_row ? f_saved_by + f_row_by : f_by) + f_moved_b;
+            always @(posedge clk_i) begin
+                if (f_take) begin
+                    {f_x, f_y, f_ax, f_by} <= {f_next_x, f_next_y, f_next_ax, f_next_by};
+                    if (beat_save_i) {f_saved_x, f_saved_y, f_saved_ax, f_saved_by}
+                        <= {f_next_x, f_next_y, f_next_ax, f_next_by};
+                    if (is_load) {f_c, f_row_x, f_row_y, f_row_ax, f_row_by}
+                        <= {beat_start_i, f_any_x, f_any_y, f_any_x * f_a_in, f_any_y * f_b_in};
+                end
+                // A polygon begins with a row start; a row's increment is that of a whole movement.
+                assume (~f_take | ~is_load | (beat_save_i & beat_row_i == f_any_x * f_a_in + f_any_y * f_b_in));
+            end
+            wire f_sums = {f_value, f_saved, f_row}
+                       == {f_c + f_ax + f_by, f_c + f_saved_ax + f_saved_by, f_row_ax + f_row_by};
+            wire f_products = {f_ax, f_saved_ax, f_row_ax} == {f_a * f_x, f_a * f_saved_x, f_a * f_row_x}
+                            & {f_by, f_saved_by, f_row_by} == {f_b * f_y, f_b * f_saved_y, f_b * f_row_y};
+            always @* assume (f_begun | (f_sums & f_products));
+            always @(posedge clk_i) if (f_begun) begin
+                // The value is A x + B y + C at the pixel (proved of values of 6 bits).
+                p_plane: assert (~f_held | value_value_o == f_c + f_a * f_x + f_b * f_y);
+                // Lemma: so is the row start, and its increment.
+                lemma_sums: assert (f_sums);
+                lemma_products: assert (f_products);
+            end
+        end
+    endgenerate
+`endif
 endmodule
 
 `default_nettype wire

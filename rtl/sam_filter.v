@@ -108,6 +108,68 @@ module sam_filter #(
 
     assign pixel_valid_o = valid_q;
     assign pixel_count_o = count_q;
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The pixels that are counted, told from the ports.
+    wire f_take = beat_valid_i & beat_ready_o;
+    wire f_give = pixel_valid_o & pixel_ready_i;
+    `SAM_HELD(f_held, f_take & beat_end_i, f_give)
+    reg  [5:0] f_count;
+    wire [5:0] f_before = beat_first_i ? 0 : f_count;
+    wire       f_adds   = beat_include_i & f_before < `SAM_FILTER_LIMIT;
+    // The sum holds its rounding already where the division is exact.
+    wire [5:0] f_rounding = FILTER_TERMS != 0 | f_count == 0 ? 0 : f_count == 1 ? 1 : f_count / 2;
+    reg  [12:0] f_sum [0:CHANNELS-1];
+    wire [CHANNELS-1:0] f_good;
+    wire f_reciprocal;
+    // Of the exact division what it divides, as products are hard to compare.
+    wire [69:0] f_colour = FILTER_TERMS == 0 ? {factor, f_sums} : pixel_rgba_o;
+    wire [51:0] f_sums;
+
+    always @(posedge clk_i) if (f_take) f_count <= f_before + f_adds;
+
+    genvar f_i;
+    generate
+        for (f_i = 0; f_i < CHANNELS; f_i = f_i + 1) begin : g_f_channel
+            assign f_sums[13*f_i +: 13] = g_channel[f_i].sum_q;
+            assign f_good[f_i] = g_channel[f_i].sum_q == f_sum[f_i] + f_rounding;
+            always @(posedge clk_i) if (f_take) begin
+                f_sum[f_i] <= (beat_first_i ? 0 : f_sum[f_i]) + (f_adds ? beat_rgba_i[8*f_i +: 8] : 0);
+            end
+        end
+        if (FILTER_TERMS == 0) begin : g_f_reciprocal
+            localparam [32*`SAM_RECIPROCAL_BITS-1:0] F_TABLE = `SAM_RECIPROCAL;
+            assign f_reciprocal = f_count == 0 | factor
+                == (f_count == 1 ? 18'h3ffff : F_TABLE[f_count * `SAM_RECIPROCAL_BITS +: 18]);
+        end else begin : g_f_none
+            assign f_reciprocal = 1'b1;
+        end
+    endgenerate
+    // Before anything was taken the registers hold what a filter may hold.
+    always @* assume (f_begun | (f_count <= `SAM_FILTER_LIMIT & count_q == f_count & &f_good & f_reciprocal));
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A pixel that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(pixel_valid_o, pixel_ready_i, {f_colour, pixel_count_o}));
+        // No beat is taken while a pixel waits.
+        p_nothing_lost: assert (~(f_take & f_held & ~f_give));
+        // A pixel is offered exactly when one has ended.
+        p_nothing_twice: assert (pixel_valid_o == f_held);
+        // The count stays in 0 to 29.
+        p_range: assert (pixel_count_o <= `SAM_FILTER_LIMIT);
+        // It is that of the included beats, of which 29 count.
+        p_count: assert (pixel_count_o == f_count);
+        // Without any the pixel is black and transparent.
+        p_empty: assert (~f_held | f_count != 0 | pixel_rgba_o == 0);
+        // The sums of all channels are divided, with the reciprocal of the count.
+        p_sums: assert (&f_good & f_reciprocal);
+        // Lemma: the sum of nothing is nothing.
+        lemma: assert (f_count != 0 | {f_sum[0], f_sum[1], f_sum[2], f_sum[3]} == 0);
+    end
+    always @* assume (f_begun | f_count != 0 | {f_sum[0], f_sum[1], f_sum[2], f_sum[3]} == 0);
+`endif
 endmodule
 
 `default_nettype wire

@@ -53,6 +53,35 @@ module sam_filter_division #(
             wire unused = &{1'b0, total[T-1:SHIFT+9], total[SHIFT-1:0], factor_i};
         end
     endgenerate
+
+`ifdef FORMAL
+    // By the formulae of ARCHITECTURE.md, in more bits than they need. The sum is that of so many
+    // channels of 8 bits; of the exact division it has its rounding in it.
+    localparam [127:0] F_P2 = `SAM_TWO_TERM_P,   F_Q2 = `SAM_TWO_TERM_Q;
+    localparam [127:0] F_P3 = `SAM_THREE_TERM_P, F_Q3 = `SAM_THREE_TERM_Q, F_R3 = `SAM_THREE_TERM_R;
+    wire [6:0]  f_at    = 4 * count_i;
+    wire [31:0] f_sum   = sum_i;
+    wire [31:0] f_two   = ((f_sum << (8 - F_P2[f_at +: 4])) + (f_sum << (8 - F_Q2[f_at +: 4])) + 128) >> 8;
+    wire [31:0] f_three = ((f_sum << (11 - F_P3[f_at +: 4])) + (f_sum << (11 - F_Q3[f_at +: 4]))
+                        + (f_sum << (11 - F_R3[f_at +: 4])) + 1024) >> 11;
+    wire [31:0] f_most  = 255 * count_i + (FILTER_TERMS == 0 ? (count_i == 1 ? 1 : count_i / 2) : 0);
+    wire        f_legal = count_i != 0 & count_i <= `SAM_FILTER_LIMIT & f_sum <= f_most
+                        & (FILTER_TERMS != 0 | count_i != 1 | f_sum != 0);
+    // The reciprocal that goes with the count, as the filter has it.
+    localparam [32*`SAM_RECIPROCAL_BITS-1:0] F_RECIPROCAL = `SAM_RECIPROCAL;
+    wire [17:0] f_factor = count_i == 1 ? 18'h3ffff : F_RECIPROCAL[count_i * `SAM_RECIPROCAL_BITS +: 18];
+    wire [31:0] f_whole  = f_sum - (count_i == 1);
+    always @* begin
+        assume (FILTER_TERMS != 0 | factor_i == f_factor);
+        // Two powers of two give the rounded formula, at most 255.
+        p_two_terms: assert (FILTER_TERMS != 2 | ~f_legal | quotient_o == (f_two > 255 ? 255 : f_two));
+        // So do three.
+        p_three_terms: assert (FILTER_TERMS != 3 | ~f_legal | quotient_o == (f_three > 255 ? 255 : f_three));
+        // The exact quotient is the whole part of the division and never above 255.
+        p_exact: assert (FILTER_TERMS != 0 | ~f_legal
+                         | (quotient_o * count_i <= f_whole & f_whole < (quotient_o + 32'd1) * count_i));
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -404,6 +404,73 @@ module sam_hybrid #(
         1'b0, xy_last, y_valid, y_ready, edge_ready, edge_valid, display_ready, display_valid,
         sampler_ready, sampler_valid, hit, filter_ready, filter_valid, s1_data
     };
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // What was taken, told from the ports.
+    wire f_take  = beat_valid_i & beat_ready_o;
+    wire f_setup = setup_valid_i & setup_ready_o;
+    // A polygon that no mode allows, or none yet, and then nothing else.
+    wire f_illegal = setup_mode_i > 3 | (setup_mode_i[1] & (setup_lend_i | setup_x_step_i < 565
+                                                            | setup_x_step_i > 1 << `SAM_FRACTION_BITS));
+    reg f_void;
+    wire f_starts = f_take & beat_op_i == `SAM_OP_LOAD & ~f_illegal;
+    always @(posedge clk_i) begin
+        f_void <= rst_i | (f_void & ~f_starts);
+        assume (`SAM_WAITS(beat_valid_i, beat_ready_o, {beat_op_i, beat_save_i, beat_last_i, beat_centre_i,
+                           beat_mask_i, beat_x_i, beat_y_i, beat_rgba_i, beat_depth_i}));
+        assume (`SAM_WAITS(setup_valid_i, setup_ready_o, {setup_mode_i, setup_lend_i, setup_average_i,
+            setup_planes_i, setup_x_start_i, setup_x_step_i, setup_x_row_i, setup_y_start_i, setup_y_step_i,
+            setup_swap_i, setup_mirror_i, setup_y_view_i, setup_y_slant_i, setup_y_row_i}));
+        assume (~f_begun | $stable({width_i, height_i, single_i}));
+    end
+
+    // Memory that answers what was asked.
+    reg [6:0] f_reads;
+    always @(posedge clk_i) begin
+        f_reads <= rst_i ? 0 : f_reads + (request_valid_o & request_ready_i) - (response_valid_i & response_ready_o);
+        assume (~f_begun | ~response_valid_i | f_reads != 0);
+        assume (`SAM_WAITS(response_valid_i, response_ready_o, {response_rgb_i, response_depth_i}));
+    end
+
+    // Clocks that a beat has waited while all round it has always been ready.
+    reg       f_slow;
+    reg [3:0] f_waited;
+    wire f_eager = left_ready_i & right_ready_i & request_ready_i & (response_valid_i | f_reads == 0)
+                 & beat_valid_i & (setup_valid_i & edges_valid_i | beat_op_i != `SAM_OP_LOAD) & edges_valid_i;
+    always @(posedge clk_i) begin
+        f_slow   <= ~rst_i & (f_slow | ~f_eager);
+        f_waited <= rst_i | beat_ready_o ? 0 : f_waited + 1;
+    end
+
+    wire f_edges = edges_valid_i & edges_ready_o;
+    reg [3:0] f_loads;
+    always @(posedge clk_i) f_loads <= rst_i ? 0 : f_loads + (f_take & beat_op_i == `SAM_OP_LOAD) - f_edges;
+
+    always @(posedge clk_i) if (f_begun & ~rst_i) begin
+        // A pixel that waits on the left is offered again, unchanged,
+        p_left_stable: assert (`SAM_WAITS(left_valid_o, left_ready_i,
+            {left_eye_o, left_x_o, left_y_o, left_rgba_o, left_area_o, left_depth_o, left_write_o, left_blended_o}));
+        // and so is one on the right.
+        p_right_stable: assert (`SAM_WAITS(right_valid_o, right_ready_i,
+            {right_eye_o, right_x_o, right_y_o, right_rgba_o, right_area_o, right_depth_o, right_write_o, right_blended_o}));
+        // With two streams each has the pixels of its eye, with one the right is silent.
+        p_eyes: assert (single_i ? ~right_valid_o : (~left_valid_o | ~left_eye_o) & (~right_valid_o | right_eye_o));
+        // A request that waits is offered again, unchanged.
+        p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
+        // A setup is taken with its LOAD, and with nothing else.
+        p_setup: assert (f_setup == (f_take & beat_op_i == `SAM_OP_LOAD));
+        // Edges are taken by a LOAD that was taken, and by each: none is before its edges but the one inside.
+        p_edges: assert (f_loads <= 1);
+        // Where all is ready a void beat is taken at once, whatever its setup was: nothing hangs.
+        p_never_hangs: assert (f_slow | ~f_void | f_waited == 0);
+        // Before a good setup nothing is read or drawn.
+        p_void: assert (~f_void | (~request_valid_o & ~left_valid_o & ~right_valid_o));
+        // The error stays until it is cleared.
+        p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -241,6 +241,45 @@ module sam_hybrid_back #(
     );
 
     wire unused = &{1'b0, edges_ready, coverage_valid};
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+
+    // Memory that answers what was asked.
+    reg [6:0] f_reads;
+    always @(posedge clk_i) begin
+        f_reads <= rst_i ? 0 : f_reads + (request_valid_o & request_ready_i) - (response_valid_i & response_ready_o);
+        assume (~f_begun | ~response_valid_i | f_reads != 0);
+        assume (`SAM_WAITS(response_valid_i, response_ready_o, {response_rgb_i, response_depth_i}));
+    end
+
+    wire f_take = s2_valid_i & s3_ready_o;
+    // Beats that can draw, and pixels that were drawn.
+    reg [4:0] f_ins, f_outs;
+    always @(posedge clk_i) begin
+        f_ins  <= rst_i ? 0 : f_ins + (f_take & (s2_draw_i | s2_secondary_i));
+        f_outs <= rst_i ? 0 : f_outs + (left_valid_o & left_ready_i) + (right_valid_o & right_ready_i);
+        assume (~f_begun | $stable(single_i));
+    end
+
+    always @(posedge clk_i) if (f_begun & ~rst_i) begin
+        // A pixel that waits on the left is offered again, unchanged,
+        p_left_stable: assert (`SAM_WAITS(left_valid_o, left_ready_i,
+            {left_eye_o, left_x_o, left_y_o, left_rgba_o, left_area_o, left_depth_o, left_write_o, left_blended_o}));
+        // and so is one on the right.
+        p_right_stable: assert (`SAM_WAITS(right_valid_o, right_ready_i,
+            {right_eye_o, right_x_o, right_y_o, right_rgba_o, right_area_o, right_depth_o, right_write_o, right_blended_o}));
+        // With two streams each has the pixels of its eye, with one the right is silent.
+        p_eyes: assert (single_i ? ~right_valid_o : (~left_valid_o | ~left_eye_o) & (~right_valid_o | right_eye_o));
+        // A request that waits is offered again, unchanged.
+        p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
+        // A beat gives two pixels at most.
+        p_nothing_made: assert (f_outs <= 2 * f_ins);
+        // Only a secondary pixel is read for: no more reads than beats are under way.
+        p_reads: assert (f_reads <= f_ins);
+    end
+`endif
 endmodule
 
 `default_nettype wire

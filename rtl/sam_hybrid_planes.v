@@ -114,6 +114,51 @@ module sam_hybrid_planes #(
             };
         end
     endgenerate
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The planes of a polygon, told from the ports: depth, red, green and blue, which share a width.
+    wire [4*Z-1:0] f_starts = {{16'd0, blue_start_i}, {16'd0, green_start_i}, {16'd0, red_start_i}, z_start_i};
+    wire [4*Z-1:0] f_slopes = {{16'd0, blue_a_i}, {16'd0, green_a_i}, {16'd0, red_a_i}, z_a_i};
+    wire [4*Z-1:0] f_tilts  = {{16'd0, blue_b_i}, {16'd0, green_b_i}, {16'd0, red_b_i}, z_b_i};
+    wire [4*Z-1:0] f_rows   = {{16'd0, blue_row_i}, {16'd0, green_row_i}, {16'd0, red_row_i}, z_row_i};
+    wire f_take = beat_valid_i & (~f_held | value_ready_i);
+    `SAM_HELD(f_held, f_take, value_ready_i)
+    wire [3:0] f_good;
+    genvar f_i;
+    generate
+        for (f_i = 0; f_i < 4; f_i = f_i + 1) begin : g_f
+            localparam B = f_i == 0 ? Z : K;
+            reg  [B-1:0] f_value, f_saved, f_a, f_b, f_row;
+            wire [B-1:0] f_up = TILT == 0 | beat_y_move_i == 0 ? 0 : beat_y_move_i == 1 ? f_b
+                              : beat_y_move_i == 3 ? -f_b : -f_b - f_b;
+            wire [B-1:0] f_next = beat_op_i == `SAM_OP_LOAD ? f_starts[f_i*Z +: B]
+                : (beat_op_i == `SAM_OP_ROW ? f_saved + f_row : f_value) + (beat_move_i ? f_a : 0) + f_up;
+            // Rounded down, into the range.
+            wire signed [B-15:0] f_floor = f_value[B-1:14];
+            wire [23:0] f_most  = f_i == 0 ? 24'hffffff : 24'hff;
+            wire [23:0] f_shown = f_floor < 0 ? 0 : f_floor > $signed({1'b0, f_most}) ? f_most : f_floor;
+            wire [23:0] f_out   = f_i == 0 ? depth_o : rgb_o[8*(f_i + 2) % 24 +: 8];
+            always @(posedge clk_i) if (f_take) begin
+                f_value <= f_next;
+                if (beat_save_i) f_saved <= f_next;
+                if (beat_op_i == `SAM_OP_LOAD) {f_a, f_b, f_row}
+                    <= {f_slopes[f_i*Z +: B], f_tilts[f_i*Z +: B], f_rows[f_i*Z +: B]};
+            end
+            assign f_good[f_i] = f_out == f_shown;
+        end
+    endgenerate
+    reg f_loaded = 1'b0;
+    always @(posedge clk_i) f_loaded <= f_loaded | (f_begun & f_take & beat_op_i == `SAM_OP_LOAD & beat_save_i);
+
+    always @(posedge clk_i) if (f_begun & f_loaded) begin
+        // The depth is the floor of its plane, kept within 24 bits; 0 where it is not interpolated.
+        p_depth: assert (DEPTH_INTERPOLATED == 0 ? depth_o == 0 : f_good[0]);
+        // Each channel is the floor of its own plane, kept within 8 bits; 0 where there are none.
+        p_channels: assert (INTEGRATED == 0 ? rgb_o == 0 : f_good[3:1] == 3'h7);
+    end
+`endif
 endmodule
 
 `default_nettype wire

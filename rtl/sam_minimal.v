@@ -262,6 +262,71 @@ module sam_minimal #(
         1'b0, y_ready, y_valid, s1_save, s1_last, s1_lend, s1_average, s1_planes,
         display_ready, display_valid, sampler_ready, sampler_valid
     };
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // What was taken, told from the ports.
+    wire f_take  = beat_valid_i & beat_ready_o;
+    wire f_setup = setup_valid_i & setup_ready_o;
+    // A polygon that no mode allows, or none yet, and then nothing else.
+    wire f_illegal = setup_mode_i > 3 | (setup_mode_i[1] & (setup_lend_i | setup_x_step_i < 565
+                                                            | setup_x_step_i > 1 << `SAM_FRACTION_BITS));
+    reg f_void;
+    wire f_starts = f_take & beat_op_i == `SAM_OP_LOAD & ~f_illegal;
+    always @(posedge clk_i) begin
+        f_void <= rst_i | (f_void & ~f_starts);
+        assume (`SAM_WAITS(beat_valid_i, beat_ready_o, {beat_op_i, beat_save_i, beat_last_i, beat_centre_i,
+                           beat_mask_i, beat_x_i, beat_y_i, beat_rgba_i, beat_depth_i}));
+        assume (`SAM_WAITS(setup_valid_i, setup_ready_o, {setup_mode_i, setup_lend_i, setup_average_i,
+            setup_planes_i, setup_x_start_i, setup_x_step_i, setup_x_row_i, setup_y_start_i, setup_y_step_i,
+            setup_swap_i, setup_mirror_i, setup_y_view_i, setup_y_slant_i, setup_y_row_i}));
+        assume (~f_begun | $stable({width_i, height_i, single_i}));
+    end
+
+    // Clocks that a beat has waited with everything ready round it.
+    reg [2:0] f_waited;
+    wire f_eager = left_ready_i & right_ready_i & beat_valid_i & (setup_valid_i | beat_op_i != `SAM_OP_LOAD);
+    always @(posedge clk_i) f_waited <= rst_i | ~f_eager | beat_ready_o ? 0 : f_waited + 1;
+    // Primary pixels of one colour, whichever, that can be drawn and that were.
+    wire [31:0] f_rgba = $anyconst;
+    wire f_in  = f_take & beat_rgba_i == f_rgba & beat_mask_i != 0;
+    wire f_out_left  = left_valid_o & left_ready_i & left_rgba_o == f_rgba;
+    wire f_out_right = right_valid_o & right_ready_i & right_rgba_o == f_rgba;
+    reg  [4:0] f_ins, f_outs;
+    always @(posedge clk_i) begin
+        f_ins  <= rst_i ? 0 : f_ins + f_in;
+        f_outs <= rst_i ? 0 : f_outs + f_out_left + f_out_right;
+    end
+    reg [3:0] f_loads;
+    always @(posedge clk_i) f_loads <= rst_i ? 0 : f_loads + (f_take & beat_op_i == `SAM_OP_LOAD) - f_setup;
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A pixel that waits on the left is offered again, unchanged,
+        p_left_stable: assert (`SAM_WAITS(left_valid_o, left_ready_i,
+            {left_eye_o, left_x_o, left_y_o, left_rgba_o, left_area_o, left_depth_o, left_write_o, left_blended_o}));
+        // and so is one on the right.
+        p_right_stable: assert (`SAM_WAITS(right_valid_o, right_ready_i,
+            {right_eye_o, right_x_o, right_y_o, right_rgba_o, right_area_o, right_depth_o, right_write_o, right_blended_o}));
+        // With two streams each has the pixels of its eye, with one the right is silent.
+        p_eyes: assert (single_i ? ~right_valid_o : (~left_valid_o | ~left_eye_o) & (~right_valid_o | right_eye_o));
+        // A setup is taken with its LOAD, and with nothing else.
+        p_setup: assert (f_setup == (f_take & beat_op_i == `SAM_OP_LOAD));
+        // Where all is ready a beat waits for a clock at most, whatever the setup was: nothing hangs.
+        p_never_hangs: assert (rst_i | f_waited <= 1 + single_i);
+        // Before a good setup nothing is drawn.
+        p_void: assert (~f_void | (~left_valid_o & ~right_valid_o));
+        // The error is raised by a void beat only, and stays until it is cleared.
+        p_error: assert ($past(rst_i) | ~error_o | $past(error_o) | $past(f_void) | $past(s1_void));
+        p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);
+        // Nothing is drawn more than twice for a beat, in a primary and a secondary pixel.
+        p_nothing_made: assert (f_outs <= 2 * f_ins | f_rgba == 0);
+        // Lemma: void beats stay so in both stages.
+        lemma: assert (~f_void | (s1_void & (~s2_valid | (~s2_primary & ~s2_wanted))));
+        // A pixel that can be blended later says so.
+        p_unblended: assert (~left_blended_o & ~right_blended_o);
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -194,6 +194,41 @@ module sam_mono #(
         1'b0, beat_op, beat_save, beat_last, out_primary, out_secondary, out_primary_x, out_primary_y,
         out_primary_rgba, out_primary_area, out_primary_depth, out_primary_write
     };
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+
+    // Memory that answers what was asked.
+    reg [6:0] f_reads;
+    always @(posedge clk_i) begin
+        f_reads <= rst_i ? 0 : f_reads + (request_valid_o & request_ready_i) - (response_valid_i & response_ready_o);
+        assume (~f_begun | ~response_valid_i | f_reads != 0);
+        assume (`SAM_WAITS(response_valid_i, response_ready_o, {response_rgb_i, response_depth_i}));
+    end
+
+    reg [3:0] f_drawn, f_asked, f_walks;
+    always @(posedge clk_i) begin
+        f_walks <= rst_i ? 0 : f_walks + (walk_valid_i & walk_ready_o) - (planes_valid_i & planes_ready_o);
+        f_asked <= rst_i ? 0 : f_asked + (request_valid_o & request_ready_i);
+        f_drawn <= rst_i ? 0 : f_drawn + (pixel_valid_o & pixel_ready_i);
+        assume (~f_begun | $stable({eye_i, width_i}));
+    end
+
+    always @(posedge clk_i) if (f_begun & ~rst_i) begin
+        // A request that waits is offered again, unchanged.
+        p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
+        // A pixel that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(pixel_valid_o, pixel_ready_i, {pixel_eye_o, pixel_write_o, pixel_blended_o,
+                          pixel_x_o, pixel_y_o, pixel_rgba_o, pixel_area_o, pixel_depth_o}));
+        // All pixels and reads are of the one eye.
+        p_eye: assert ((~pixel_valid_o | pixel_eye_o == eye_i) & (~request_valid_o | request_eye_o == eye_i));
+        // Every pixel was read for, and has its background.
+        p_nothing_made: assert (f_drawn + pixel_valid_o <= f_asked & (~pixel_valid_o | pixel_blended_o));
+        // Planes are taken with their parts: at most one is before its planes.
+        p_planes: assert (f_walks <= 1);
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -75,6 +75,42 @@ module sam_polygon #(
             mirror_o    <= setup_mirror_i;
         end
     end
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    wire [6:0] f_flags = {eye_o, binocular_o, lend_o, average_o, planes_o, swap_o, mirror_o};
+    reg        f_loaded = 1'b0;
+    reg  [6:0] f_of_load;
+    wire       f_load = accept_i & op_i == `SAM_OP_LOAD;
+    // A setup that no mode allows, whatever its x.
+    wire f_illegal = setup_mode_i > 3 | (setup_mode_i[1] & setup_lend_i) | (setup_lend_i & LEND == 0)
+                   | (setup_mode_i[1] & (setup_x_step_i < 565 | setup_x_step_i > 1 << `SAM_FRACTION_BITS));
+    // One that every configuration draws.
+    wire f_legal = setup_mode_i < 4 & ~setup_lend_i
+                 & (~setup_mode_i[1] | (setup_x_start_i < 640 & setup_x_step_i >= 565 & setup_x_step_i <= 1 << `SAM_FRACTION_BITS));
+
+    always @(posedge clk_i) if (f_load) begin
+        f_loaded  <= 1'b1;
+        f_of_load <= {setup_mode_i[0], setup_mode_i[1], setup_lend_i, setup_average_i, setup_planes_i,
+                      setup_swap_i, setup_mirror_i};
+    end
+
+    always @(posedge clk_i) if (f_begun) begin
+        // After a reset beats are void.
+        p_after_reset: assert (~$past(rst_i) | void_o);
+        // They are not where a good LOAD was last,
+        p_good: assert ($past(rst_i | ~f_load | ~f_legal) | ~void_o);
+        // they are where a bad one was,
+        p_bad: assert ($past(rst_i | ~f_load | ~f_illegal) | void_o);
+        // and after a beat with the reserved op.
+        p_reserved: assert ($past(rst_i | ~accept_i) | $past(op_i) != `SAM_OP_RESERVED | void_o);
+        // Nothing else changes that.
+        p_holds: assert ($past(rst_i | (accept_i & op_i != `SAM_OP_STEP & op_i != `SAM_OP_ROW)) | $stable(void_o));
+        // The flags are those of the last LOAD.
+        p_flags: assert (~f_loaded | f_flags == f_of_load);
+    end
+`endif
 endmodule
 
 `default_nettype wire

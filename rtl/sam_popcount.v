@@ -27,6 +27,18 @@ module sam_popcount #(
             assign area_o = ones;
         end
     endgenerate
+
+`ifdef FORMAL
+    wire [15:0] f_mask = mask_i;
+    always @* begin
+        // No sample covers nothing, every sample covers the pixel.
+        p_ends: assert ((area_o == 0) == (mask_i == 0) & (area_o == `SAM_FULL_AREA(ANTIALIAS)) == &mask_i);
+        // The area is the sum of the samples.
+        p_sum: assert (area_o == f_mask[0] + f_mask[1] + f_mask[2] + f_mask[3] + f_mask[4] + f_mask[5]
+            + f_mask[6] + f_mask[7] + f_mask[8] + f_mask[9] + f_mask[10] + f_mask[11] + f_mask[12]
+            + f_mask[13] + f_mask[14] + f_mask[15]);
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -152,6 +152,44 @@ module sam_primary #(
     );
 
     wire unused = &{1'b0, area, coverage_ready, coverage_valid, display_ready, display_valid};
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // Parts that have begun and whose planes were taken, and beats, told from the ports.
+    wire f_walk   = walk_valid_i & walk_ready_o;
+    wire f_planes = planes_valid_i & planes_ready_o;
+    wire f_beat   = beat_valid_o & beat_ready_i;
+    reg [2:0] f_walks, f_planed;
+    reg       f_lasts, f_open;
+    always @(posedge clk_i) begin
+        f_walks  <= rst_i ? 0 : f_walks + f_walk - f_planes;
+        f_planed <= rst_i ? 0 : f_planed + f_planes - (f_beat & beat_op_o == `SAM_OP_LOAD);
+        f_open   <= ~rst_i & (f_beat ? ~beat_last_o : f_open);
+        assume (`SAM_WAITS(walk_valid_i, walk_ready_o, {walk_last_i, walk_creep_i, walk_rows_i, walk_x_i,
+                walk_x_row_i, walk_left_i, walk_right_i, walk_y_i, walk_y_step_i, walk_swap_i, walk_mirror_i}));
+        assume (`SAM_WAITS(planes_valid_i, planes_ready_o, {planes_z_start_i, planes_z_a_i, planes_z_row_i}));
+        assume (~f_begun | $stable(width_i));
+    end
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A beat that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(beat_valid_o, beat_ready_i, {beat_op_o, beat_save_o, beat_last_o,
+                          beat_centre_o, beat_mask_o, beat_x_o, beat_y_o, beat_rgba_o, beat_depth_o}));
+        // Planes are taken by a part that was taken, each by one: at most one part is before its planes.
+        p_planes: assert (f_walks <= 1);
+        // A LOAD comes out for each record of planes, once.
+        p_loads: assert (f_planed <= 1 & (~beat_valid_o | (beat_op_o == `SAM_OP_LOAD) <= f_planed));
+        // After a reset and after a last beat comes a LOAD.
+        p_first: assert (~beat_valid_o | f_open | beat_op_o == `SAM_OP_LOAD);
+        // A LOAD is a row start.
+        p_saves: assert (~beat_valid_o | beat_op_o != `SAM_OP_LOAD | beat_save_o);
+        // A covered centre has a covered pixel within the view, unless the mask is cut there.
+        p_mask: assert (ANTIALIAS == 1 | ~beat_valid_o | beat_centre_o | ~beat_mask_o);
+        // Lemma: where the LOADs are.
+        lemma: assert (f_walks == (visited & is_load) & f_planed == (beat_valid_o & beat_op_o == `SAM_OP_LOAD));
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -121,6 +121,62 @@ module sam_redirect #(
             right_x_o} = right_primary ? primary : secondary;
     assign left_eye_o  = slot_eye_i ^ ~left_primary;
     assign right_eye_o = slot_eye_i ^ ~right_primary;
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // What of the slot has gone, told from the ports by the eye of what leaves.
+    wire f_left  = left_valid_o & left_ready_i;
+    wire f_right = right_valid_o & right_ready_i;
+    wire f_primary   = (f_left & left_eye_o == slot_eye_i) | (f_right & right_eye_o == slot_eye_i);
+    wire f_secondary = (f_left & left_eye_o != slot_eye_i) | (f_right & right_eye_o != slot_eye_i);
+    wire f_taken = slot_valid_i & slot_ready_o;
+    reg  f_primary_gone, f_secondary_gone;
+    wire [W-1:0] f_left_pixel = {left_blended_o, left_write_o, left_depth_o, left_area_o, left_rgba_o, left_y_o, left_x_o};
+    wire [W-1:0] f_right_pixel = {right_blended_o, right_write_o, right_depth_o, right_area_o, right_rgba_o, right_y_o, right_x_o};
+    wire [W-1:0] f_a_primary = {1'b0, slot_primary_write_i, slot_primary_depth_i, slot_primary_area_i,
+                                slot_primary_rgba_i, slot_primary_y_i, slot_primary_x_i};
+    wire [W-1:0] f_a_secondary = {slot_secondary_blended_i, slot_secondary_write_i, slot_secondary_depth_i,
+                slot_secondary_area_i, slot_secondary_rgba_i, slot_secondary_y_i, slot_secondary_x_i};
+
+    always @(posedge clk_i) begin
+        f_primary_gone   <= ~rst_i & ~f_taken & (f_primary_gone | f_primary);
+        f_secondary_gone <= ~rst_i & ~f_taken & (f_secondary_gone | f_secondary);
+        // A slot waits as any beat does, except that with two streams a pixel may join it.
+        assume (`SAM_WAITS(slot_valid_i, slot_ready_o, {slot_eye_i, single_i}));
+        assume (`SAM_WAITS(slot_valid_i & slot_primary_i, slot_ready_o, f_a_primary));
+        assume (`SAM_WAITS(slot_valid_i & slot_secondary_i, slot_ready_o, f_a_secondary));
+        assume (~single_i | `SAM_WAITS(slot_valid_i, slot_ready_o, {slot_primary_i, slot_secondary_i}));
+    end
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A pixel that waits on the left is offered again, unchanged,
+        p_left_stable: assert (`SAM_WAITS(left_valid_o, left_ready_i, {left_eye_o, f_left_pixel}));
+        // and so is one on the right.
+        p_right_stable: assert (`SAM_WAITS(right_valid_o, right_ready_i, {right_eye_o, f_right_pixel}));
+        // A slot is taken when each of its pixels has gone.
+        p_nothing_lost: assert (rst_i | ~f_taken | ((~slot_primary_i | f_primary | f_primary_gone)
+                                          & (~slot_secondary_i | f_secondary | f_secondary_gone)));
+        // None goes twice.
+        p_nothing_twice: assert (rst_i | ~((f_primary & f_primary_gone) | (f_secondary & f_secondary_gone)
+                                   | (f_left & f_right & left_eye_o == right_eye_o)));
+        // Only what is there goes.
+        p_nothing_made: assert (~((f_primary & ~slot_primary_i) | (f_secondary & ~slot_secondary_i)));
+        // What goes to the left is the pixel of the eye that it names,
+        p_left: assert (~left_valid_o | f_left_pixel == (left_eye_o == slot_eye_i ? f_a_primary : f_a_secondary));
+        // and what goes to the right is.
+        p_right: assert (~right_valid_o | f_right_pixel == (right_eye_o == slot_eye_i ? f_a_primary : f_a_secondary));
+        // With two streams each has the pixels of its eye.
+        p_not_swapped: assert (single_i | ((~left_valid_o | ~left_eye_o) & (~right_valid_o | right_eye_o)));
+        // With one stream the right is silent, and the primary goes first.
+        p_single: assert (~single_i | (~right_valid_o & (~f_secondary | ~slot_primary_i | f_primary_gone | rst_i)));
+        // Where both streams are ready a slot leaves at once, with one stream in the second clock.
+        p_prompt: assert (~left_ready_i | ~right_ready_i | slot_ready_o
+                          | (single_i & slot_primary_i & ~f_primary_gone));
+        // Lemma: the notes are what the ports tell.
+        lemma: assert ({primary_gone_q, secondary_gone_q} == {f_primary_gone, f_secondary_gone});
+    end
+`endif
 endmodule
 
 `default_nettype wire

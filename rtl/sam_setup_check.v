@@ -36,6 +36,27 @@ module sam_setup_check #(
 
     assign bad_o = unknown | (binocular & setup_lend_i) | (binocular & scale_bad)
                  | ((binocular | setup_lend_i) & start_bad);
+
+`ifdef FORMAL
+    // The conditions of section "Units" in ARCHITECTURE.md, in whole numbers.
+    wire signed [15:0] f_x = $signed(setup_x_start_i);
+    wire f_binocular = setup_mode_i == `SAM_MODE_LEFT_TO_RIGHT | setup_mode_i == `SAM_MODE_RIGHT_TO_LEFT;
+    wire f_start_bad = f_x < -(`SAM_GUARD_BAND(SUBPIXEL_BITS) + `SAM_START_SLACK)
+        | f_x >= `SAM_MAX_SIZE(SUBPIXEL_BITS) + `SAM_GUARD_BAND(SUBPIXEL_BITS) + `SAM_START_SLACK;
+    always @* begin
+        // A mode above 3 is bad.
+        p_mode: assert (setup_mode_i < 4 | bad_o);
+        // To lend the edges of a binocular polygon is bad.
+        p_lend: assert (~f_binocular | ~setup_lend_i | bad_o);
+        // G1 of a binocular polygon is bad above 1.0 and below 565.
+        p_scale: assert (~f_binocular | (setup_x_step_i >= 565 & setup_x_step_i <= 1 << `SAM_FRACTION_BITS) | bad_o);
+        // A start far outside is bad where the secondary x counts.
+        p_start: assert (~f_start_bad | (~f_binocular & ~setup_lend_i) | bad_o);
+        // Nothing else is bad.
+        p_good: assert (~bad_o | setup_mode_i > 3 | (f_binocular & (setup_lend_i | setup_x_step_i < 565
+            | setup_x_step_i > 1 << `SAM_FRACTION_BITS)) | ((f_binocular | setup_lend_i) & f_start_bad));
+    end
+`endif
 endmodule
 
 `default_nettype wire

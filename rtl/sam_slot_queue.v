@@ -430,6 +430,133 @@ module sam_slot_queue #(
     } = leaving;
 
     wire unused = &{1'b0, step_ready, next_x_i, next_y_i, way_eye};
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // Blend between pixel and colour.
+    wire f_blend_ready, f_colour_valid, f_colour_visible;
+    wire [`SAM_RGB_BITS-1:0] f_colour;
+    sam_blend #(.ANTIALIAS(ANTIALIAS), .TAG_BITS(1)) f_blend (.clk_i(clk_i), .rst_i(rst_i),
+        .pixel_valid_i(pixel_valid_o), .pixel_ready_o(f_blend_ready), .pixel_rgb_i(`SAM_RGB_BITS'd0),
+        .pixel_alpha_i(8'd0), .pixel_area_i(pixel_area_o), .pixel_background_i(`SAM_RGB_BITS'd0),
+        .pixel_tag_i(pixel_visible_o), .colour_valid_o(f_colour_valid), .colour_ready_i(colour_ready_o),
+        .colour_rgb_o(f_colour), .colour_tag_o(f_colour_visible));
+    always @* assume (pixel_ready_i == f_blend_ready & colour_valid_i == f_colour_valid
+                      & colour_visible_i == f_colour_visible);
+
+    // Memory that answers what was asked.
+    reg [6:0] f_reads;
+    always @(posedge clk_i) begin
+        f_reads <= rst_i ? 0 : f_reads + (request_valid_o & request_ready_i) - (response_valid_i & response_ready_o);
+        assume (~f_begun | ~response_valid_i | f_reads != 0);
+        assume (`SAM_WAITS(response_valid_i, response_ready_o, {response_rgb_i, response_depth_i}));
+    end
+
+    // A slot is new when the one before it has been taken. It was announced in the clock before.
+    localparam F = 2 * C + A + D + 2;
+    wire f_taken = slot_valid_i & slot_ready_o;
+    wire f_asked = request_valid_o & request_ready_i;
+    wire f_out   = out_valid_o & out_ready_i;
+    reg  f_old, f_dropped;
+    wire f_new   = slot_valid_i & ~f_old & ~rst_i;
+    wire [F-1:0] f_primary   = {slot_primary_x_i, slot_primary_y_i, slot_primary_area_i, slot_primary_depth_i,
+                                slot_primary_write_i, 1'b0};
+    wire [F-1:0] f_secondary = {slot_secondary_x_i, slot_secondary_y_i, slot_secondary_area_i,
+                                slot_secondary_depth_i, slot_secondary_write_i, 1'b1};
+    always @(posedge clk_i) begin
+        f_old     <= ~rst_i & slot_valid_i & ~slot_ready_o;
+        // What the depth test drops leaves unseen: the properties of order speak of all before.
+        f_dropped <= ~rst_i & (f_dropped | (colour_valid_i & colour_ready_o & ~colour_visible_i));
+        assume (`SAM_WAITS(slot_valid_i, slot_ready_o, {slot_primary_i, slot_secondary_i, slot_eye_i,
+            f_primary, slot_primary_rgba_i, f_secondary, slot_secondary_rgba_i}));
+        assume (~f_begun | $stable(single_i));
+    end
+    reg f_announced_eye;
+    reg [2*C-1:0] f_announced;
+    always @(posedge clk_i) {f_announced_eye, f_announced} <= {next_eye_i, next_x_i, next_y_i};
+    always @* assume (~f_begun | ~f_new | {~slot_eye_i, slot_secondary_x_i, slot_secondary_y_i}
+                                        == {f_announced_eye, f_announced});
+
+    // The pixels of one eye, and of them the one of some number: as it came, and as it leaves.
+    wire       f_eye    = $anyconst;
+    wire [3:0] f_number = $anyconst;
+    wire f_is_primary   = slot_primary_i & slot_eye_i == f_eye;
+    wire f_is_secondary = slot_secondary_i & slot_eye_i != f_eye;
+    wire f_comes        = f_new & (f_is_primary | f_is_secondary);
+    wire f_leaves_first = f_out & out_primary_o & out_eye_o == f_eye;
+    wire f_leaves_other = f_out & out_secondary_o & out_eye_o != f_eye;
+    wire [F-1:0] f_left_first = {out_primary_x_o, out_primary_y_o, out_primary_area_o, out_primary_depth_o,
+                                 out_primary_write_o, 1'b0};
+    wire [F-1:0] f_left_other = {out_secondary_x_o, out_secondary_y_o, out_secondary_area_o,
+                                 out_secondary_depth_o, out_secondary_write_o, out_blended_o};
+    reg  [3:0]   f_came, f_left;
+    reg  [F-1:0] f_kept;
+    wire [F-1:0] f_pixel = f_comes & f_came == f_number ? (f_is_primary ? f_primary : f_secondary) : f_kept;
+    wire [3:0]   f_all   = f_came + f_comes;
+    always @(posedge clk_i) begin
+        f_kept <= f_pixel;
+        f_came <= rst_i ? 0 : f_all;
+        f_left <= rst_i ? 0 : f_left + f_leaves_first + f_leaves_other;
+    end
+
+    // One place of that eye: the pixels that came to it, and that left.
+    wire [2*C-1:0] f_place = $anyconst;
+    wire f_comes_there = f_comes & (f_is_primary ? f_primary : f_secondary) >> (A + D + 2) == f_place;
+    wire f_leaves_there = (f_leaves_first & f_left_first >> (A + D + 2) == f_place)
+                        | (f_leaves_other & f_left_other >> (A + D + 2) == f_place);
+    wire f_asked_there = f_asked & request_eye_o == f_eye & {request_x_o, request_y_o} == f_place;
+    reg [3:0] f_came_there, f_left_there;
+    always @(posedge clk_i) begin
+        f_came_there <= rst_i ? 0 : f_came_there + f_comes_there;
+        f_left_there <= rst_i ? 0 : f_left_there + f_leaves_there;
+    end
+
+    // The read of some number: its pixel, and the answer.
+    reg [3:0] f_asks, f_answers, f_pixels;
+    reg [`SAM_RGBA_BITS+A+D-1:0] f_asking;
+    reg [`SAM_RGB_BITS+D-1:0]    f_answered;
+    wire f_asks_it    = f_asked & f_asks == f_number;
+    wire f_answers_it = response_valid_i & response_ready_o & f_answers == f_number;
+    wire [`SAM_RGB_BITS+D-1:0] f_answer = f_answers_it ? {response_rgb_i, response_depth_i} : f_answered;
+    wire [`SAM_RGBA_BITS-1:0] f_rgba;
+    wire [A-1:0] f_area;
+    wire [D-1:0] f_depth;
+    assign {f_rgba, f_area, f_depth} = f_asking;
+    always @(posedge clk_i) begin
+        if (f_asks_it) f_asking <= {slot_secondary_rgba_i, slot_secondary_area_i, slot_secondary_depth_i};
+        f_answered <= f_answer;
+        f_asks     <= rst_i ? 0 : f_asks + f_asked;
+        f_answers  <= rst_i ? 0 : f_answers + (response_valid_i & response_ready_o);
+        f_pixels   <= rst_i ? 0 : f_pixels + (pixel_valid_o & pixel_ready_i);
+    end
+    wire f_shows = pixel_valid_o & f_pixels == f_number;
+
+    always @(posedge clk_i) if (f_begun & ~rst_i) begin
+        // A request that waits is offered again, unchanged.
+        p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
+        // No more reads are under way than there are slots.
+        p_reads: assert (f_reads <= SLOTS);
+        // What leaves of an eye has come before.
+        p_nothing_made: assert (f_left + f_leaves_first + f_leaves_other <= f_all);
+        // No more than the slots, the stages behind them and the slot in front are under way.
+        p_nothing_lost: assert (f_dropped | f_all - f_left <= SLOTS + 4);
+        // The pixels of an eye leave in the order in which they came, as they came.
+        p_order: assert (f_dropped | ~(f_leaves_first | f_leaves_other) | f_left != f_number
+                         | (f_leaves_first ? f_left_first : f_left_other) == {f_pixel[F-1:1], f_leaves_first ? 1'b0 : out_blended_o});
+        // A slot is taken when its secondary has been read, and reads nothing else.
+        p_asks: assert (~f_asked | (slot_valid_i & slot_secondary_i & request_eye_o == ~slot_eye_i
+                        & {request_x_o, request_y_o} == {slot_secondary_x_i, slot_secondary_y_i}));
+        // A place is not read while an earlier pixel of its eye there is under way.
+        p_one_place: assert (f_dropped | ~f_asked_there | f_came_there + f_comes_there - 1'b1 == f_left_there);
+        // A pixel goes to blend with the background and the colour of its own read.
+        p_pixel: assert (~f_shows | {pixel_rgba_o, pixel_area_o, pixel_background_o} == {f_rgba, f_area, f_answer[D +: `SAM_RGB_BITS]});
+        // It is visible where it is nearer than what is there.
+        p_depth: assert (~f_shows | DEPTH_EXTERNAL == 1 | pixel_visible_o == (f_depth < f_answer[0 +: D]));
+        // Where nothing is under way a primary passes at once.
+        p_passes: assert (~f_new | ~slot_primary_i | single_i | f_came != 0 | f_eye != slot_eye_i | out_primary_o);
+    end
+`endif
 endmodule
 
 `default_nettype wire

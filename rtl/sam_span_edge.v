@@ -88,6 +88,51 @@ module sam_span_edge #(
     assign a_o           = a_q;
     assign b_o           = b_q;
     assign low_o         = low_q;
+
+`ifdef FORMAL
+    // The function without its bound, its values at the row start and at the row's first pixel.
+    wire signed [E-1:0] f_bound = $signed(bound_q);
+    reg  signed [S-1:0] f_slope;
+    reg  [E-1:0] f_saved, f_row;
+    wire signed [E-1:0] f_bound_in = $signed(bound_i);
+    wire [E-1:0] f_inner = value_o - f_bound;
+    wire [E-1:0] f_ahead = (save_i ? f_inner : f_saved) + f_row;
+    wire signed [E-1:0] f_a = f_slope;
+
+    always @(posedge clk_i) begin
+        if (load_i) {f_slope, f_row} <= {a_i, row_i};
+        if (advance_i & save_i) f_saved <= f_inner;
+        assume (~load_i | ~advance_i);
+    end
+    reg f_loaded = 1'b0;
+    always @(posedge clk_i) f_loaded <= f_loaded | load_i;
+    always @* assume (f_loaded | f_saved == saved_q);
+
+    always @(posedge clk_i) begin
+        if (f_loaded & $past(f_loaded)) begin
+            // Until the next load the function stays where nothing advances.
+            p_stays: assert ($past(load_i | advance_i) | $stable(value_o));
+            // Within a row it moves by a.
+            p_steps: assert ($past(load_i | ~advance_i | down_i) | value_o == $past(value_o + f_a));
+            // Into the next row it moves from the row start by the increment, or by a pixel less.
+            p_rows: assert ($past(load_i | ~advance_i | ~down_i)
+                            | value_o == $past((move_i ? f_ahead : f_ahead - f_a) + f_bound));
+        end
+        // A load gives start and bound, slopes and low bits.
+        p_loads: assert (~f_loaded | ~$past(load_i)
+            | (value_o == $past(start_i + f_bound_in) & {a_o, b_o, low_o} == $past({a_i, b_i, low_i})));
+        if (f_loaded) begin
+            // A row starts at a rising edge's pixels that are below its bound,
+            p_starts: assert (starts_o == (f_slope > 0 & $signed(f_inner) < 0));
+            // the next one where the increment leads below it,
+            p_next: assert (next_starts_o == (f_slope > 0 & $signed(f_ahead) < 0));
+            // and ends at a falling edge's.
+            p_beyond: assert (beyond_o == (f_slope < 0 & $signed(f_inner) < 0));
+            // Lemma: registers are what the ports tell.
+            lemma: assert ({saved_q, row_q, a_q} == {f_saved, f_row, f_slope} & rises_q == (f_slope > 0));
+        end
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -39,6 +39,29 @@ module sam_stage #(
         // Without a look at the valid, which may come late.
         if (in_ready_o) data_q <= in_data_i;
     end
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    wire f_take = in_valid_i & in_ready_o;
+    wire f_give = out_valid_o & out_ready_i;
+    `SAM_HELD(f_held, f_take, f_give)
+    reg [WIDTH-1:0] f_data;
+    always @(posedge clk_i) if (f_take) f_data <= in_data_i;
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A beat that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(out_valid_o, out_ready_i, out_data_o));
+        // No beat is taken before the one inside has left.
+        p_nothing_lost: assert (~(f_take & f_held & ~f_give));
+        // A beat is offered exactly when one is inside.
+        p_nothing_twice: assert (out_valid_o == f_held);
+        // It is offered as it was taken.
+        p_data: assert (~f_held | out_data_o == f_data);
+        // There is room for a beat in every clock in which the one inside leaves.
+        p_room: assert (in_ready_o | (f_held & ~out_ready_i));
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -207,6 +207,54 @@ module sam_stereo #(
         .right_x_o(right_x_o), .right_y_o(right_y_o), .right_rgba_o(right_rgba_o),
         .right_area_o(right_area_o), .right_depth_o(right_depth_o)
     );
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+
+    // Memory that answers what was asked.
+    reg [6:0] f_reads;
+    always @(posedge clk_i) begin
+        f_reads <= rst_i ? 0 : f_reads + (request_valid_o & request_ready_i) - (response_valid_i & response_ready_o);
+        assume (~f_begun | ~response_valid_i | f_reads != 0);
+        assume (`SAM_WAITS(response_valid_i, response_ready_o, {response_rgb_i, response_depth_i}));
+    end
+
+    // Parts that have begun without their planes; planes without their setup; setups without their edges.
+    reg [3:0] f_walks, f_planes, f_setups;
+    wire f_walk  = walk_valid_i & walk_ready_o,   f_plane = planes_valid_i & planes_ready_o;
+    wire f_setup = setup_valid_i & setup_ready_o, f_edge  = edges_valid_i & edges_ready_o;
+    always @(posedge clk_i) begin
+        f_walks  <= rst_i ? 0 : f_walks + f_walk - f_plane;
+        f_planes <= rst_i ? 0 : f_planes + f_plane - f_setup;
+        f_setups <= rst_i ? 0 : f_setups + f_setup - f_edge;
+        assume (~f_begun | $stable({single_i, width_i, height_i}));
+        assume (`SAM_WAITS(setup_valid_i, setup_ready_o, {setup_mode_i, setup_x_start_i, setup_x_step_i, setup_lend_i,
+            setup_average_i, setup_planes_i, setup_x_row_i, setup_y_start_i, setup_y_step_i, setup_swap_i,
+            setup_mirror_i, setup_y_view_i, setup_y_slant_i, setup_y_row_i}));
+    end
+
+    always @(posedge clk_i) if (f_begun & ~rst_i) begin
+        // A pixel that waits on the left is offered again, unchanged,
+        p_left_stable: assert (`SAM_WAITS(left_valid_o, left_ready_i,
+            {left_eye_o, left_x_o, left_y_o, left_rgba_o, left_area_o, left_depth_o, left_write_o, left_blended_o}));
+        // and so is one on the right.
+        p_right_stable: assert (`SAM_WAITS(right_valid_o, right_ready_i,
+            {right_eye_o, right_x_o, right_y_o, right_rgba_o, right_area_o, right_depth_o, right_write_o, right_blended_o}));
+        // With two streams each has the pixels of its eye, with one the right is silent.
+        p_eyes: assert (single_i ? ~right_valid_o : (~left_valid_o | ~left_eye_o) & (~right_valid_o | right_eye_o));
+        // A request that waits is offered again, unchanged.
+        p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
+        // The four records of a part are taken in the order walk, planes, setup, edges, each once.
+        p_records: assert (f_walks <= 1 & f_planes <= 1 & f_setups <= 1);
+        // Nothing is drawn or read before the first part has all its records.
+        p_nothing_made: assert (f_seen | ~(request_valid_o | left_valid_o | right_valid_o));
+        // The error stays until it is cleared.
+        p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);
+    end
+    reg f_seen;
+    always @(posedge clk_i) f_seen <= ~rst_i & (f_seen | f_edge);
+`endif
 endmodule
 
 `default_nettype wire

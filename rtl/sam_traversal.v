@@ -145,6 +145,66 @@ module sam_traversal #(
         .starts_o(starts[2]), .next_starts_o(next_starts[2]), .beyond_o(beyond[2]),
         .value_o(visit_value2_o), .a_o(visit_a2_o), .b_o(visit_b2_o), .low_o(visit_low2_o)
     );
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The part inside, told from the ports: what is left of it, and where its row start is.
+    wire f_take = walk_valid_i & walk_ready_o;
+    wire f_give = visit_valid_o & visit_ready_i;
+    reg               f_inside, f_last, f_fresh;
+    reg [C-1:0]       f_rows, f_y, f_before_y;
+    reg signed [P-1:0] f_x, f_row_start, f_right, f_x_row;
+    reg signed [D-1:0] f_y_step;
+    wire signed [C-1:0] f_down = f_y_step;
+    wire signed [P-1:0] f_moved = f_x + visit_move_o;
+    wire signed [P-1:0] f_row_at = f_row_start + f_x_row + visit_move_o;
+    // The last pixel of a part is the one with which the next part is taken or the stage is empty.
+    wire f_ends = f_give & walk_ready_o;
+
+    always @(posedge clk_i) begin
+        f_inside <= ~rst_i & (f_take | (f_inside & ~f_ends));
+        if (f_give) begin
+            {f_x, f_y} <= {visit_x_o, visit_y_o};
+            if (visit_save_o) f_row_start <= visit_x_o;
+            if (visit_op_o == `SAM_OP_ROW) f_rows <= f_rows - 1;
+        end
+        if (f_give) f_fresh <= 1'b0;
+        if (f_take) begin
+            {f_fresh, f_last, f_rows, f_right, f_x_row, f_y_step}
+                <= {1'b1, walk_last_i, walk_rows_i, walk_right_i, walk_x_row_i, walk_y_step_i};
+            {f_x, f_y} <= {walk_x_i, walk_y_i};
+        end
+    end
+    wire [C-1:0] f_rows_now = f_rows - (f_inside & ~f_fresh & visit_op_o == `SAM_OP_ROW);
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A pixel that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(visit_valid_o, visit_ready_i, {visit_op_o, visit_save_o, visit_last_o,
+            visit_move_o, visit_swap_o, visit_mirror_o, visit_x_o, visit_y_o, visit_value0_o, visit_value1_o,
+            visit_value2_o, visit_a0_o, visit_a1_o, visit_a2_o, visit_b0_o, visit_b1_o, visit_b2_o,
+            visit_low0_o, visit_low1_o, visit_low2_o}));
+        // Pixels are offered exactly while a part is inside, a part is taken when the one before ends.
+        p_nothing_lost: assert (visit_valid_o == f_inside & (~f_take | ~f_inside | f_ends));
+        // A part begins with its LOAD, and has no other.
+        p_load: assert (~f_inside | (visit_op_o == `SAM_OP_LOAD) == f_fresh);
+        // A part has as many rows as its record says: it ends in the last one, and with no other.
+        p_rows: assert (~f_ends | rst_i | f_rows_now == 0);
+        // Only the last pixel of a part is last, where the record says so.
+        p_last: assert (~f_give | visit_last_o == (f_last & f_ends));
+        // The first pixel is where the record says.
+        p_start: assert (~f_inside | ~f_fresh | (visit_x_o == f_x & visit_y_o == f_y & visit_save_o));
+        // A step goes one to the right in the same line, from a pixel left of the record's right end.
+        p_step: assert (~f_inside | visit_op_o != `SAM_OP_STEP | (visit_move_o & visit_x_o == f_moved & visit_y_o == f_y
+                        & f_x < f_right));
+        // A row begins at the row start and increment, or a pixel further, on the next line.
+        p_row: assert (~f_inside | visit_op_o != `SAM_OP_ROW | (visit_x_o == f_row_at & visit_y_o == f_y + f_down));
+        // Lemma: registers are what the ports tell.
+        lemma: assert (active_q == f_inside & (~f_inside | ({rows_q, last_q, right_q, x_row_q, y_step_q}
+                       == {f_rows_now, f_last, f_right, f_x_row, f_y_step})));
+        lemma_start: assert (~f_inside | f_fresh | saved_q == f_row_start);
+    end
+`endif
 endmodule
 
 `default_nettype wire

@@ -102,6 +102,69 @@ module sam_x_interpolator #(
     // 2 frac < 1/2 + G1 at twice the scale: always so in the left half of the pixel, and in the
     // right half when twice the distance from the centre is below G1.
     assign pixel_near_o = ~acc_q[F-1] | ({1'b0, acc_q[F-2:0], 1'b0} < step_q);
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The beat inside and its accumulator, told from the ports.
+    wire f_take = beat_valid_i & beat_ready_o;
+    wire f_give = pixel_valid_o & pixel_ready_i;
+    `SAM_HELD(f_held, f_take, f_give)
+    reg  [`SAM_OP_BITS-1:0]    f_op;
+    reg                        f_save, f_last;
+    reg  [X-1:0]               f_acc, f_before, f_saved, f_row;
+    reg  [`SAM_SCALE_BITS-1:0] f_step;
+    wire [X-1:0] f_next = beat_op_i == `SAM_OP_LOAD ? beat_start_i
+                        : beat_op_i == `SAM_OP_ROW ? f_saved + f_row : f_acc + f_step;
+    wire [X-F-1:0] f_x      = f_acc >> F;
+    wire [X-F-1:0] f_next_x = f_next >> F;
+    wire [X-F-1:0] f_moved  = f_x - (f_before >> F) - (f_op == `SAM_OP_ROW ? f_row >> F : 0);
+
+    always @(posedge clk_i) begin
+        if (f_take) begin
+            {f_op, f_save, f_last} <= {beat_op_i, beat_save_i, beat_last_i};
+            f_acc    <= f_next;
+            f_before <= beat_op_i == `SAM_OP_ROW ? f_saved : f_acc;
+            if (beat_save_i) f_saved <= f_next;
+            if (beat_op_i == `SAM_OP_LOAD) {f_step, f_row} <= {beat_step_i, beat_row_i};
+        end
+        assume (`SAM_WAITS(beat_valid_i, beat_ready_o, {beat_op_i, beat_save_i, beat_last_i,
+                           beat_start_i, beat_step_i, beat_row_i}));
+        assume (width_i <= `SAM_MAX_SIZE(SUBPIXEL_BITS) & (~f_begun | $stable(width_i)));
+    end
+    wire f_same = {acc_q, saved_q, row_q, step_q} == {f_acc, f_saved, f_row, f_step};
+    always @* assume (f_begun | f_same);
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A pixel that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(pixel_valid_o, pixel_ready_i, {pixel_op_o, pixel_save_o,
+            pixel_last_o, pixel_x_o, pixel_move_o, pixel_near_o, pixel_inside_o, pixel_end_o}));
+        // No beat is taken before the one inside has left.
+        p_nothing_lost: assert (~(f_take & f_held & ~f_give));
+        // No pixel is offered without a beat inside.
+        p_nothing_twice: assert (~pixel_valid_o | f_held);
+        // The beat inside is offered when it is the last one or the next one is there.
+        p_nothing_kept: assert (pixel_valid_o | ~f_held | ~(f_last | beat_valid_i));
+        // A pixel has the op, save and last of its beat.
+        p_labels: assert (~f_held | {pixel_op_o, pixel_save_o, pixel_last_o} == {f_op, f_save, f_last});
+        // x is the floor of start, of the sum of the steps, or of row start and row increment.
+        p_x: assert (~f_held | pixel_x_o == f_x);
+        // A step of at most 1.0 moves by 0 or +1, the difference of the floors.
+        p_step_moves: assert (~f_held | f_op != `SAM_OP_STEP | f_step > `SAM_SCALE_ONE | pixel_move_o == f_moved);
+        // A row moves by 0 or +1 more than the floor of its increment.
+        p_row_moves: assert (~f_held | f_op != `SAM_OP_ROW | pixel_move_o == f_moved);
+        // A load does not move.
+        p_load_moves: assert (~f_held | f_op != `SAM_OP_LOAD | ~pixel_move_o);
+        // A beat is near when twice its fraction is below 1/2 and G1.
+        p_near: assert (~f_held | pixel_near_o == ({f_acc[F-1:0], 1'b0} < f_step + (1 << F)));
+        // A pixel is inside where 0 <= x < width.
+        p_inside: assert (~f_held | pixel_inside_o == (~f_acc[X-1] & f_x < width_i));
+        // The last beat of a secondary pixel ends it: what follows is no step, or one that moves.
+        p_ends: assert (~pixel_valid_o | pixel_end_o == (f_last | beat_op_i != `SAM_OP_STEP | f_next_x != f_x));
+        // Lemma: registers are what the ports tell.
+        lemma: assert (f_same & valid_q == f_held);
+    end
+`endif
 endmodule
 
 `default_nettype wire

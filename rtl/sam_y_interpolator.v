@@ -132,6 +132,84 @@ module sam_y_interpolator #(
             assign pixel_end_o    = last_q | ~is_step | (moves != {M{1'b0}});
         end
     endgenerate
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The beat inside, its y and, with TILT, its accumulator, told from the ports.
+    localparam XB = `SAM_X_BITS(SUBPIXEL_BITS);
+    localparam FB = `SAM_FRACTION_BITS;
+    wire f_take = beat_valid_i & beat_ready_o;
+    wire f_give = pixel_valid_o & pixel_ready_i;
+    `SAM_HELD(f_held, f_take, f_give)
+    reg                              f_last;
+    reg [`SAM_OP_BITS-1:0]           f_op;
+    reg [C-1:0]                      f_start, f_upright;
+    reg signed [S-1:0]               f_step;
+    reg [XB-1:0]                     f_view, f_before, f_saved, f_row;
+    reg signed [`SAM_SLANT_BITS-1:0] f_slant;
+    wire signed [XB-1:0] f_slant_wide = f_slant;
+    wire signed [C-1:0]  f_step_wide  = f_step;
+    wire [XB-1:0] f_next = beat_op_i == `SAM_OP_LOAD ? beat_view_i
+                         : beat_op_i == `SAM_OP_ROW ? f_saved + f_row : f_view + f_slant_wide;
+    wire signed [XB-FB-1:0] f_v      = f_view >> FB;
+    wire signed [XB-FB-1:0] f_next_v = f_next >> FB;
+    wire signed [C-1:0] f_tilted = f_step * f_v;
+    wire [XB-FB-1:0] f_moved  = f_v - (f_before >> FB) - (f_op == `SAM_OP_ROW ? f_row >> FB : 0);
+
+    always @(posedge clk_i) begin
+        if (f_take) begin
+            {f_op, f_last} <= {beat_op_i, beat_last_i};
+            f_view   <= f_next;
+            f_before <= beat_op_i == `SAM_OP_ROW ? f_saved : f_view;
+            if (beat_save_i) f_saved <= f_next;
+            f_upright <= beat_op_i == `SAM_OP_LOAD ? beat_start_i
+                       : beat_op_i == `SAM_OP_ROW ? f_upright + f_step_wide : f_upright;
+            if (beat_op_i == `SAM_OP_LOAD) begin
+                {f_start, f_step, f_row, f_slant} <= {beat_start_i, beat_step_i, beat_row_i, beat_slant_i};
+            end
+        end
+        assume (`SAM_WAITS(beat_valid_i, beat_ready_o, {beat_op_i, beat_save_i, beat_last_i,
+                           beat_start_i, beat_step_i, beat_view_i, beat_slant_i, beat_row_i}));
+        assume (height_i <= `SAM_MAX_SIZE(SUBPIXEL_BITS) & (~f_begun | $stable(height_i)));
+    end
+    wire f_same;
+    generate
+        if (TILT == 0) assign f_same = {y_q, step_q} == {f_upright, f_step};
+        else assign f_same = {y_q, step_q, g_tilt.view_q, g_tilt.saved_q, g_tilt.row_q, g_tilt.slant_q}
+                          == {f_start, f_step, f_view, f_saved, f_row, f_slant};
+    endgenerate
+    always @* assume (f_begun | f_same);
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A pixel that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(pixel_valid_o, pixel_ready_i,
+                                   {pixel_y_o, pixel_move_o, pixel_inside_o, pixel_end_o}));
+        // No beat is taken before the one inside has left.
+        p_nothing_lost: assert (~(f_take & f_held & ~f_give));
+        // No pixel is offered without a beat inside.
+        p_nothing_twice: assert (~pixel_valid_o | f_held);
+        // The beat inside is offered when it is the last one or the next one is there.
+        p_nothing_kept: assert (pixel_valid_o | ~f_held | ~(f_last | beat_valid_i));
+        // An upright y is start plus one step for every row since; a tilted one is start + step v.
+        p_y: assert (~f_held | pixel_y_o == (TILT == 0 ? f_upright : f_start + f_tilted));
+        // An upright y never moves within a row.
+        p_upright: assert (TILT == 1 | (pixel_move_o == 0 & pixel_inside_o));
+        // A tilted step moves by the difference of the floors of v, -1, 0 or 1 where the slant is below 1.
+        p_step_moves: assert (TILT == 0 | ~f_held | f_op != `SAM_OP_STEP | $signed(pixel_move_o) == $signed(f_moved)
+                            | f_slant >= (1 << FB) | f_slant < -(1 << FB));
+        // A tilted row moves by 0 or +1 more than the floor of its increment, a load not at all.
+        p_row_moves: assert (TILT == 0 | ~f_held | (f_op != `SAM_OP_ROW & f_op != `SAM_OP_LOAD)
+                           | pixel_move_o == (f_op == `SAM_OP_LOAD ? 0 : f_moved[1:0]));
+        // A tilted pixel is inside where 0 <= v < height.
+        p_inside: assert (TILT == 0 | ~f_held | pixel_inside_o == (~f_view[XB-1] & $unsigned(f_v) < height_i));
+        // The last beat of a secondary pixel ends it: what follows is no step, or one that changes v.
+        p_ends: assert (~pixel_valid_o | (TILT == 1 & (f_slant >= (1 << FB) | f_slant < -(1 << FB)))
+                      | pixel_end_o == (f_last | beat_op_i != `SAM_OP_STEP | (TILT == 1 & f_next_v != f_v)));
+        // Lemma: registers are what the ports tell.
+        lemma: assert (f_same & valid_q == f_held & (~f_held | last_q == f_last));
+    end
+`endif
 endmodule
 
 `default_nettype wire

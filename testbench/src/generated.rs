@@ -3,6 +3,7 @@
 
 use crate::baseline::{self, Areas, Rows};
 use crate::cli;
+use crate::prove::record;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::{Record, RecordError};
 use std::fmt::Write;
@@ -25,6 +26,8 @@ pub enum Generated {
     Header,
     /// The page of a unit or system: its interface and what it costs.
     Page(Target),
+    /// `docs/formal.md`: what is proved.
+    Formal,
     /// `README.md`: what all of them cost.
     Readme,
     /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
@@ -51,6 +54,9 @@ pub enum GenerateError {
     /// There is no record of area and timing.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// There is no record of what is proved.
+    #[error(transparent)]
+    Proofs(#[from] record::RecordError),
 }
 
 /// Line after a generated part of a page.
@@ -60,7 +66,11 @@ impl Generated {
     /// All generated files.
     pub fn all() -> impl Iterator<Item = Generated> {
         let pages = Target::ALL.into_iter().map(Generated::Page);
-        [Generated::Header].into_iter().chain(pages).chain([Generated::Readme, Generated::Theory])
+        [Generated::Header].into_iter().chain(pages).chain([
+            Generated::Formal,
+            Generated::Readme,
+            Generated::Theory,
+        ])
     }
 
     /// Path below the workspace.
@@ -68,6 +78,7 @@ impl Generated {
         match self {
             Generated::Header => "rtl/sam_formats.vh".into(),
             Generated::Page(target) => format!("docs/{}.md", target.name()),
+            Generated::Formal => "docs/formal.md".into(),
             Generated::Readme => "README.md".into(),
             Generated::Theory => "docs/theory.md".into(),
         }
@@ -85,6 +96,11 @@ impl Generated {
                     Target::Stereo => self.between(&text, "baseline", &baseline_tables(workspace)?),
                     _ => Ok(text),
                 }
+            }
+            Generated::Formal => {
+                let record = record::Record::read(workspace)?;
+                let text = self.between(present, "proofs", &record.tables(workspace))?;
+                self.between(&text, "netlists", &record.netlist_table())
             }
             Generated::Readme => {
                 self.between(present, "synthesis", &Record::read(workspace)?.overview())

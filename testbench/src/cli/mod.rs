@@ -23,6 +23,7 @@ mod compare;
 mod cosim;
 mod generate;
 mod info;
+mod prove;
 mod render;
 mod reproduce;
 mod rig;
@@ -107,6 +108,8 @@ enum Command {
     Synth(synth::SynthArgs),
     /// Compare clocks and area of the stereo pipeline with two passes of a monocular one
     Baseline(baseline::BaselineArgs),
+    /// Prove the properties of the Verilog, plant bugs that they catch, prove netlists
+    Prove(prove::ProveArgs),
     /// List targets, configurations, parameters, scenes, projections and experiments
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
@@ -249,6 +252,7 @@ pub fn main() -> ExitCode {
         Command::Reproduce(args) => reproduce::run(args),
         Command::Synth(args) => synth::run(args),
         Command::Baseline(args) => baseline::run(args),
+        Command::Prove(args) => prove::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
         Command::Generate(args) => generate::run(args),
@@ -373,6 +377,11 @@ fn rtl_folder(named: &Option<PathBuf>) -> Result<PathBuf, Failure> {
             "no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into(),
         )
     })
+}
+
+/// The folder of the workspace, which there must be.
+fn root() -> Result<PathBuf, Failure> {
+    workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
 }
 
 /// The file by which a workspace is known.

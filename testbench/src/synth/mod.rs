@@ -8,20 +8,14 @@ mod fpga;
 mod gates;
 pub mod record;
 
-use crate::scratch::Scratch;
+pub use crate::flow::FlowError as SynthError;
+use crate::flow::{self, Folder};
 use crate::sources::{self, Sources};
-use crate::tools::{self, Found, Tool, ToolError};
-use crate::verilate::{entry, short};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-use thiserror::Error;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::interface::Interface;
-use wheatstone_golden::picture::{write_file, WriteError};
 use wheatstone_golden::targets::Target;
 
 /// What a target is synthesised for.
@@ -98,35 +92,6 @@ impl Figure {
 /// What was measured. Nothing, where the target does not fit on the chip.
 pub type Figures = BTreeMap<Figure, f64>;
 
-/// Why nothing could be measured.
-#[derive(Debug, Error)]
-pub enum SynthError {
-    /// A tool is missing.
-    #[error(transparent)]
-    Tool(#[from] ToolError),
-    /// A file could not be read.
-    #[error("cannot read {}: {source}", .path.display())]
-    Read {
-        /// Which one.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// A file could not be written.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    /// A tool refused the design, or does not say what it is expected to.
-    #[error("{tool} failed on {module}:\n{lines}")]
-    Failed {
-        /// Which tool.
-        tool: &'static str,
-        /// Which module.
-        module: &'static str,
-        /// What it said.
-        lines: String,
-    },
-}
-
 /// Runs the tools and keeps what they find.
 #[derive(Debug)]
 pub struct Synthesiser {
@@ -173,15 +138,7 @@ impl Design<'_> {
 
     /// Yosys commands that read the Verilog and set the parameters.
     fn read_commands(&self) -> String {
-        let files = self.sources.keys().filter(|name| name.ends_with(".v"));
-        let files: String = files.map(|name| format!(" {name}")).collect();
-        let parameters = &self.interface.parameters;
-        let set: String = parameters.iter().map(|(n, v)| format!(" -set {n} {v}")).collect();
-        let set = match set.is_empty() {
-            true => set,
-            false => format!("chparam{set} {}; ", self.module()),
-        };
-        format!("read_verilog -I .{files}; {set}")
+        flow::read_commands(self.sources, self.module(), &self.interface.parameters)
     }
 
     /// What `measure` finds, kept under a hash of the sources and of `inputs`: everything else that
@@ -191,78 +148,6 @@ impl Design<'_> {
         inputs: &[&[u8]],
         measure: impl FnOnce(&Folder) -> Result<Figures, SynthError>,
     ) -> Result<Figures, SynthError> {
-        let mut hash = blake3::Hasher::new();
-        for (name, content) in self.sources {
-            entry(&mut hash, name.as_bytes(), content);
-        }
-        inputs.iter().for_each(|input| entry(&mut hash, b"input", input));
-        let file = self.cache.join(format!("{}-{}.json", self.module(), short(&hash)));
-        let known = fs::read(&file).ok().and_then(|text| serde_json::from_slice(&text).ok());
-        if let Some(figures) = known {
-            return Ok(figures);
-        }
-        let figures = measure(&Folder::of(self)?)?;
-        let text = serde_json::to_vec(&figures).unwrap_or_default();
-        write_file(&file, &text)?;
-        Ok(figures)
-    }
-}
-
-/// A temporary folder with the sources of a design.
-struct Folder {
-    folder: Scratch,
-    module: &'static str,
-}
-
-impl Folder {
-    fn of(design: &Design<'_>) -> Result<Folder, SynthError> {
-        let cache = design.cache;
-        let at = |source| WriteError { file: cache.to_owned(), source };
-        fs::create_dir_all(cache).map_err(at)?;
-        let folder = Folder { folder: Scratch::new(cache).map_err(at)?, module: design.module() };
-        for (name, content) in design.sources {
-            folder.write(name, content)?;
-        }
-        Ok(folder)
-    }
-
-    fn write(&self, name: &str, content: &[u8]) -> Result<(), SynthError> {
-        Ok(write_file(&self.folder.path().join(name), content)?)
-    }
-
-    fn read(&self, name: &str) -> Result<String, SynthError> {
-        let path = self.folder.path().join(name);
-        fs::read_to_string(&path).map_err(|source| SynthError::Read { path, source })
-    }
-
-    /// A command of a tool that works in this folder.
-    fn command(&self, tool: &Found) -> Command {
-        let mut command = Command::new(&tool.program);
-        command.current_dir(self.folder.path());
-        // Tools from PyPI compile themselves at their first call and keep that here.
-        if let Some(cache) = tools::python_cache() {
-            command.env("YOWASP_CACHE_DIR", cache);
-        }
-        command
-    }
-
-    /// Runs a command; what it said, where it failed, becomes the error.
-    fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<(), SynthError> {
-        let output = command
-            .output()
-            .map_err(|source| SynthError::Read { path: command.get_program().into(), source })?;
-        if output.status.success() {
-            return Ok(());
-        }
-        let text = [output.stdout, output.stderr].concat();
-        Err(self.failed(tool, &String::from_utf8_lossy(&text)))
-    }
-
-    /// The error of a tool that said `text`.
-    fn failed(&self, tool: &'static Tool, text: &str) -> SynthError {
-        let all: Vec<&str> = text.lines().collect();
-        let first = all.iter().position(|line| line.contains("ERROR")).unwrap_or(0);
-        let lines = all[first..].iter().take(8).copied().collect::<Vec<_>>().join("\n");
-        SynthError::Failed { tool: tool.program, module: self.module, lines }
+        flow::cached(self.cache, self.module(), self.sources, inputs, measure)
     }
 }

@@ -1,0 +1,223 @@
+//! `wheatstone prove`.
+
+use super::*;
+use crate::prove::record::{self, shown, Compared, Proved, Record};
+use crate::prove::{is_property, properties, Bug, Effort, Prover, Verdict, BUGS};
+use rayon::prelude::*;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::picture::write_file;
+
+#[derive(Debug, Args)]
+pub(super) struct ProveArgs {
+    /// Modules, for example filter or slot_queue; none means all
+    #[arg(value_name = "MODULE")]
+    modules: Vec<String>,
+    /// Only the default configuration of what is proved in seconds: about a minute
+    #[arg(long, conflicts_with_all = ["record", "bugs", "netlist"])]
+    quick: bool,
+    /// Plant each property's bugs and see the property fail; exit status 1 if one does not
+    #[arg(long)]
+    bugs: bool,
+    /// Prove the netlists of gates equal to the Verilog instead, in the configurations paper and default
+    #[arg(long)]
+    netlist: bool,
+    /// Write a JSON report
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write what was proved into the record; `wheatstone generate` then renews docs/formal.md
+    #[arg(long, conflicts_with = "bugs")]
+    record: bool,
+    /// Folder of the Verilog [default: rtl of this workspace]
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &ProveArgs) -> Result<u8, Failure> {
+    let rtl = rtl_folder(&args.rtl)?;
+    let cache = cache_folder(workspace(), Prover::CACHE, |name| std::env::var_os(name));
+    let prover = Prover { rtl, cache };
+    let modules = chosen(args, &prover)?;
+    match (args.bugs, args.netlist) {
+        (true, _) => bugs(args, &prover, &modules),
+        (_, true) => netlists(args, &prover, &modules),
+        _ => proofs(args, &prover, &modules),
+    }
+}
+
+/// The modules that were named, or all.
+fn chosen(args: &ProveArgs, prover: &Prover) -> Result<Vec<String>, Failure> {
+    let all = prover.modules()?;
+    let name = |text: &String| {
+        let name = text.strip_prefix("sam_").unwrap_or(text);
+        let known = all.iter().any(|module| module == name);
+        let there_are = || format!("no properties of “{text}”; there are: {}", all.join(", "));
+        known.then(|| name.to_owned()).ok_or_else(|| Failure::Input(there_are()))
+    };
+    match &args.modules[..] {
+        [] => Ok(all.clone()),
+        some => some.iter().map(name).collect(),
+    }
+}
+
+fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, Failure> {
+    let mut builds = Vec::new();
+    for module in modules.iter().filter(|module| !args.quick || Effort::is_quick(module)) {
+        let of_module = prover.builds(module)?;
+        let wanted = of_module.into_iter().take(if args.quick { 1 } else { usize::MAX });
+        builds.extend(wanted.map(|build| {
+            let effort = Effort::of(module);
+            (build, if args.quick { effort.quick() } else { effort })
+        }));
+    }
+    // The longest first, so that none is left over at the end.
+    builds.sort_by_key(|(build, effort)| (effort.bound, !build.label.contains("full")));
+    let spinner = Spinner::new();
+    let proved: Result<Vec<Proved>, Failure> = builds
+        .par_iter()
+        .with_max_len(1)
+        .map(|(build, effort)| {
+            let proof = prover.prove(build, *effort)?;
+            spinner.tell(&build.module, &format!("{}, {:.1} s", build.label, proof.seconds));
+            Ok(Proved::of(build, proof))
+        })
+        .collect();
+    drop(spinner);
+    let mut proved = proved?;
+    proved.sort_by_key(|entry| entry.module.clone());
+    print_proofs(prover, &proved)?;
+    write_json(args, "proofs", &proved)?;
+    if args.record {
+        update(&proved, &[])?;
+    }
+    let fails = |entry: &Proved| {
+        let mut verdicts = entry.proof.verdicts.values();
+        verdicts.any(|verdict| matches!(verdict, Verdict::Fails(_)))
+    };
+    Ok(if proved.iter().any(fails) { MISMATCH } else { OK })
+}
+
+fn print_proofs(prover: &Prover, proved: &[Proved]) -> Result<(), Failure> {
+    let mut table = comfy_table::Table::new();
+    table.load_preset(comfy_table::presets::NOTHING);
+    table.set_header(["module", "property", "proved", "build", "seconds"]);
+    let (mut always, mut bounded, mut failed) = (0, 0, 0);
+    for entry in proved {
+        for property in properties(&prover.text(&entry.module)?) {
+            let Some(verdict) = entry.verdict(&property.name) else { continue };
+            match verdict {
+                Verdict::Induction(_) => always += 1,
+                Verdict::Bounded(_) => bounded += 1,
+                Verdict::Fails(_) => failed += 1,
+            }
+            let seconds = format!("{:.1}", entry.proof.seconds);
+            let row = [&entry.module, &property.name, &shown(verdict), &entry.build, &seconds];
+            table.add_row(row.map(String::as_str));
+        }
+        // A lemma that fails leaves what rests on it unproved.
+        let lemmas = entry.proof.verdicts.iter().filter(|(label, _)| !is_property(label));
+        for (label, verdict) in lemmas.filter(|(_, verdict)| matches!(verdict, Verdict::Fails(_))) {
+            table.add_row([&entry.module, label, &shown(*verdict), &entry.build, ""]);
+            failed += 1;
+        }
+    }
+    say!("{table}\n");
+    say!("{always} proved for any number of clocks, {bounded} for so many, {failed} fail");
+    Ok(())
+}
+
+fn bugs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, Failure> {
+    let wanted: Vec<&Bug> =
+        BUGS.iter().filter(|bug| modules.iter().any(|module| module == bug.module)).collect();
+    let spinner = Spinner::new();
+    let steps: Result<Vec<Option<u32>>, Failure> = wanted
+        .par_iter()
+        .with_max_len(1)
+        .map(|bug| {
+            spinner.tell(bug.module, bug.property);
+            Ok(prover.catches(bug)?)
+        })
+        .collect();
+    drop(spinner);
+    let steps = steps?;
+    let mut report = Vec::new();
+    for (bug, step) in wanted.iter().zip(&steps) {
+        let Bug { module, property, build, find, replace } = bug;
+        if step.is_none() {
+            say!("not caught: {module} ({build}), {property}: {find} → {replace}");
+        }
+        report.push(serde_json::json!({
+            "module": module, "property": property, "build": build, "find": find,
+            "replace": replace, "step": step,
+        }));
+    }
+    write_json(args, "bugs", &report)?;
+    let caught = steps.iter().flatten().count();
+    say!("{caught} of {} bugs caught", wanted.len());
+    Ok(if caught == wanted.len() { OK } else { MISMATCH })
+}
+
+fn netlists(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, Failure> {
+    let targets = modules.iter().filter_map(|module| Target::named(module));
+    let tasks: Vec<(Target, &str, Config)> = targets
+        .flat_map(|target| {
+            let configs = [("default", Config::DEFAULT), ("paper", Config::PAPER)];
+            configs.map(|(name, config)| (target, name, config))
+        })
+        .collect();
+    let spinner = Spinner::new();
+    let compared: Result<Vec<Compared>, Failure> = tasks
+        .par_iter()
+        .with_max_len(1)
+        .map(|(target, name, config)| {
+            let equivalence = prover.equivalence(*target, config)?;
+            spinner.tell(target.name(), &format!("{name}, {:.1} s", equivalence.seconds));
+            Ok(Compared {
+                target: target.name().to_owned(),
+                config: (*name).to_owned(),
+                equivalence,
+            })
+        })
+        .collect();
+    drop(spinner);
+    let compared = compared?;
+    for Compared { target, config, equivalence } in &compared {
+        let verdict = match (equivalence.closes(), equivalence.points) {
+            (true, points) => format!("equal at {points} points"),
+            (false, 0) => "does not close".into(),
+            (false, points) => format!("{} of {points} points open", equivalence.open),
+        };
+        say!("{target} {config}: {verdict}, {:.1} s", equivalence.seconds);
+    }
+    write_json(args, "netlists", &compared)?;
+    if args.record {
+        update(&[], &compared)?;
+    }
+    Ok(OK)
+}
+
+fn write_json(
+    args: &ProveArgs,
+    name: &str,
+    entries: &impl serde::Serialize,
+) -> Result<(), Failure> {
+    let Some(file) = &args.json else { return Ok(()) };
+    let content = serde_json::json!({
+        "command": std::env::args().collect::<Vec<_>>().join(" "),
+        name: entries,
+    });
+    Ok(write_file(file, format!("{content:#}\n").as_bytes())?)
+}
+
+/// Writes into the record of the workspace.
+fn update(proofs: &[Proved], netlists: &[Compared]) -> Result<(), Failure> {
+    let root = root()?;
+    // The first one has nothing before it.
+    let mut record = match root.join(record::FILE).exists() {
+        true => Record::read(&root).map_err(|error| Failure::Input(error.to_string()))?,
+        false => Record::default(),
+    };
+    record.update(proofs, netlists);
+    record.write(&root)?;
+    say!("{}: written; now run: wheatstone generate", record::FILE);
+    Ok(())
+}

@@ -1,0 +1,166 @@
+//! Flows of open tools on the Verilog of a module: in a temporary folder, with results kept by content.
+
+use crate::scratch::Scratch;
+use crate::sources::Sources;
+use crate::tools::{self, Found, Tool, ToolError};
+use crate::verilate::{entry, short};
+use serde::{de::DeserializeOwned, Serialize};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use thiserror::Error;
+use wheatstone_golden::picture::{write_file, WriteError};
+
+/// Why a flow of open tools came to no result.
+#[derive(Debug, Error)]
+pub enum FlowError {
+    /// A tool is missing.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+    /// A file could not be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Read {
+        /// Which one.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file could not be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A tool refused the design, or does not say what it is expected to.
+    #[error("{tool} failed on {module}:\n{lines}")]
+    Failed {
+        /// Which tool.
+        tool: &'static str,
+        /// Which module.
+        module: String,
+        /// What it said.
+        lines: String,
+    },
+    /// An entry of the list of planted bugs is wrong.
+    #[error("planted bug of {what}: {why}")]
+    Bug {
+        /// Which one.
+        what: String,
+        /// Why.
+        why: String,
+    },
+}
+
+/// Yosys commands that read the Verilog and set the parameters of `module`.
+pub(crate) fn read_commands(
+    sources: &Sources,
+    module: &str,
+    parameters: &[(impl AsRef<str>, u32)],
+) -> String {
+    let files = sources.keys().filter(|name| name.ends_with(".v"));
+    let files: String = files.map(|name| format!(" {name}")).collect();
+    format!("read_verilog -I .{files}; {}", set_parameters(module, parameters))
+}
+
+/// The Yosys command that sets parameters, if there are any.
+pub(crate) fn set_parameters(module: &str, parameters: &[(impl AsRef<str>, u32)]) -> String {
+    let set = parameters.iter().map(|(name, value)| format!(" -set {} {value}", name.as_ref()));
+    match set.collect::<String>() {
+        set if set.is_empty() => set,
+        set => format!("chparam{set} {module}; "),
+    }
+}
+
+/// What `find` finds of a module, kept in the folder `cache` under a hash of the sources and of `inputs`:
+/// everything else that the result depends on.
+pub(crate) fn cached<T: Serialize + DeserializeOwned>(
+    cache: &Path,
+    module: &str,
+    sources: &Sources,
+    inputs: &[&[u8]],
+    find: impl FnOnce(&Folder) -> Result<T, FlowError>,
+) -> Result<T, FlowError> {
+    let mut hash = blake3::Hasher::new();
+    for (name, content) in sources {
+        entry(&mut hash, name.as_bytes(), content);
+    }
+    inputs.iter().for_each(|input| entry(&mut hash, b"input", input));
+    let file = cache.join(format!("{module}-{}.json", short(&hash)));
+    let known = fs::read(&file).ok().and_then(|text| serde_json::from_slice(&text).ok());
+    if let Some(found) = known {
+        return Ok(found);
+    }
+    let found = find(&Folder::of(cache, module, sources)?)?;
+    let text = serde_json::to_vec(&found).unwrap_or_default();
+    write_file(&file, &text)?;
+    Ok(found)
+}
+
+/// A temporary folder with the sources of a design.
+pub(crate) struct Folder {
+    folder: Scratch,
+    module: String,
+}
+
+impl Folder {
+    /// A folder below `cache`.
+    pub fn of(cache: &Path, module: &str, sources: &Sources) -> Result<Folder, FlowError> {
+        let at = |source| WriteError { file: cache.to_owned(), source };
+        fs::create_dir_all(cache).map_err(at)?;
+        let scratch = Scratch::new(cache).map_err(at)?;
+        let folder = Folder { folder: scratch, module: module.to_owned() };
+        for (name, content) in sources {
+            folder.write(name, content)?;
+        }
+        Ok(folder)
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Writes a file.
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<(), FlowError> {
+        Ok(write_file(&self.folder.path().join(name), content)?)
+    }
+
+    /// The text of a file.
+    pub fn read(&self, name: &str) -> Result<String, FlowError> {
+        let path = self.folder.path().join(name);
+        fs::read_to_string(&path).map_err(|source| FlowError::Read { path, source })
+    }
+
+    /// A command of a tool that works in this folder.
+    pub fn command(&self, tool: &Found) -> Command {
+        let mut command = Command::new(&tool.program);
+        command.current_dir(self.folder.path());
+        // Tools from PyPI compile themselves at their first call and keep that here.
+        if let Some(cache) = tools::python_cache() {
+            command.env("YOWASP_CACHE_DIR", cache);
+        }
+        command
+    }
+
+    /// Runs a command; what it said, where it failed, becomes the error.
+    pub fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<(), FlowError> {
+        let output = self.output(command)?;
+        if output.status.success() {
+            return Ok(());
+        }
+        let text = [output.stdout, output.stderr].concat();
+        Err(self.failed(tool, &String::from_utf8_lossy(&text)))
+    }
+
+    /// What a command says and how it ends.
+    pub fn output(&self, command: &mut Command) -> Result<Output, FlowError> {
+        let output = command.output();
+        output.map_err(|source| FlowError::Read { path: command.get_program().into(), source })
+    }
+
+    /// The error of a tool that said `text`.
+    pub fn failed(&self, tool: &'static Tool, text: &str) -> FlowError {
+        let all: Vec<&str> = text.lines().collect();
+        let first = all.iter().position(|line| line.contains("ERROR")).unwrap_or(0);
+        let lines = all[first..].iter().take(8).copied().collect::<Vec<_>>().join("\n");
+        FlowError::Failed { tool: tool.program, module: self.module.clone(), lines }
+    }
+}

@@ -1,0 +1,454 @@
+//! Formal proofs: the properties at the ends of the modules, by induction where that closes and else for
+//! so many clocks from reset; the bugs that each of them catches; and netlists against the Verilog.
+//!
+//! A module's own properties are proved of it with the modules inside it, whose properties are left to
+//! their own proofs: only the file of the module is read with `FORMAL` defined.
+
+mod bugs;
+mod netlist;
+mod property;
+pub mod record;
+
+pub use bugs::{Bug, BUGS};
+pub use netlist::Equivalence;
+pub use property::{properties, Property};
+
+use crate::flow::{self, FlowError, Folder};
+use crate::sources::{self, Sources};
+use crate::tools::{self, Found, YICES, YOSYS, YOSYS_SMTBMC};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::Instant;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::targets::Target;
+
+/// How a property was proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// It does not hold: it fails so many clocks after the first one.
+    Fails(u32),
+    /// No counterexample within so many clocks from reset.
+    Bounded(u32),
+    /// Of any number of clocks, by induction over so many.
+    Induction(u32),
+}
+
+/// A module with parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Build {
+    /// Module without `sam_`.
+    pub module: String,
+    /// The named configurations that give these parameters, or what else the build is for.
+    pub label: String,
+    /// Verilog parameters that are set.
+    pub parameters: Vec<(String, u32)>,
+}
+
+/// What came of a build.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Proof {
+    /// By the labels of the properties, lemmas included.
+    pub verdicts: BTreeMap<String, Verdict>,
+    /// Processor time is not measured: seconds on the clock.
+    pub seconds: f64,
+}
+
+/// How far a proof goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Clocks of induction that are tried.
+    pub induction: u32,
+    /// Clocks from reset where that does not close.
+    pub bound: u32,
+}
+
+impl Effort {
+    /// The effort that a module is worth.
+    pub fn of(module: &str) -> Effort {
+        let [induction, bound] = match module {
+            // Without registers one clock is all there is.
+            "clamp" | "popcount" | "setup_check" | "coverage" | "coverage_edge"
+            | "filter_division" => [1, 1],
+            "primary_planes" | "hybrid_planes" => [1, 5],
+            "hybrid" | "stereo" | "mono" | "hybrid_back" | "slot_queue" => [2, 12],
+            "minimal" | "primary" => [2, 14],
+            _ => [3, 10],
+        };
+        Effort { induction, bound }
+    }
+
+    /// Whether a module is in the short set: those whose first build takes a few seconds.
+    pub fn is_quick(module: &str) -> bool {
+        !["blend", "coverage_edge", "filter_division", "primary_planes", "hybrid_planes"]
+            .contains(&module)
+    }
+
+    /// What a default test can afford.
+    pub fn quick(self) -> Effort {
+        Effort { bound: self.bound.min(4), ..self }
+    }
+}
+
+/// Seconds after which a prover is stopped.
+const LIMIT: u32 = 150;
+
+/// Builds beside those of the named configurations: narrow ones, where wide ones would take too long,
+/// and ones that the systems use.
+const VARIANTS: [(&str, &str, &[(&str, u32)]); 7] = [
+    ("filter_division", "three terms", &[("FILTER_TERMS", 3)]),
+    ("edge_interpolator", "4 bits", &[("BITS", 4), ("SLOPE_BITS", 3), ("TILT", 1)]),
+    ("edge_interpolator", "depth", &[("BITS", 43), ("SLOPE_BITS", 43), ("TILT", 0)]),
+    ("clamp", "depth", &[("BITS", 24)]),
+    ("stage", "40 bits", &[("WIDTH", 40)]),
+    ("polygon", "minimal", &[("SUBPIXEL_BITS", 8), ("LEND", 0)]),
+    ("slot_queue", "2 slots", &[("SUBPIXEL_BITS", 4), ("SLOTS", 2)]),
+];
+
+/// Runs the provers and keeps what they find.
+#[derive(Debug)]
+pub struct Prover {
+    /// Folder of the Verilog.
+    pub rtl: PathBuf,
+    /// Folder of the cache, created when needed.
+    pub cache: PathBuf,
+}
+
+/// The programs of a proof.
+struct Programs {
+    yosys: Found,
+    smtbmc: Found,
+    yices: Found,
+}
+
+impl Prover {
+    /// The cache that the programs of this workspace use, seen from the workspace's folder.
+    pub const CACHE: &'static str = "target/wheatstone/prove";
+
+    /// The modules that have properties, sorted, without `sam_`.
+    pub fn modules(&self) -> Result<Vec<String>, FlowError> {
+        let at = |source| FlowError::Read { path: self.rtl.clone(), source };
+        let mut modules = Vec::new();
+        for entry in std::fs::read_dir(&self.rtl).map_err(at)? {
+            let name = entry.map_err(at)?.file_name().to_string_lossy().into_owned();
+            let module = name.strip_prefix("sam_").and_then(|rest| rest.strip_suffix(".v"));
+            if let Some(module) = module {
+                if !properties(&self.text(module)?).is_empty() {
+                    modules.push(module.to_owned());
+                }
+            }
+        }
+        modules.sort();
+        Ok(modules)
+    }
+
+    /// The Verilog of a module.
+    pub fn text(&self, module: &str) -> Result<String, FlowError> {
+        let path = self.rtl.join(format!("sam_{module}.v"));
+        std::fs::read_to_string(&path).map_err(|source| FlowError::Read { path, source })
+    }
+
+    /// The builds of a module: those of the named configurations, each set of parameters once, then
+    /// the others.
+    pub fn builds(&self, module: &str) -> Result<Vec<Build>, FlowError> {
+        let text = self.text(module)?;
+        let mut builds: Vec<Build> = Vec::new();
+        for name in Config::NAMES {
+            let config = Config::named(name).unwrap_or(Config::DEFAULT);
+            let parameters = parameters(module, &text, &config);
+            match builds.iter_mut().find(|build| build.parameters == parameters) {
+                Some(build) => build.label = format!("{}, {name}", build.label),
+                None => builds.push(Build {
+                    module: module.to_owned(),
+                    label: name.to_owned(),
+                    parameters,
+                }),
+            }
+        }
+        for (_, label, parameters) in VARIANTS.iter().filter(|(of, ..)| *of == module) {
+            let parameters = parameters.iter().map(|(n, v)| ((*n).to_owned(), *v)).collect();
+            let (module, label) = (module.to_owned(), (*label).to_owned());
+            builds.push(Build { module, label, parameters });
+        }
+        Ok(builds)
+    }
+
+    /// Proves what can be proved of a build.
+    pub fn prove(&self, build: &Build, effort: Effort) -> Result<Proof, FlowError> {
+        let sources = self.sources(&build.module)?;
+        let programs = Programs::find()?;
+        let commands = read_commands(&sources, build);
+        let effort_text = format!("{effort:?} {LIMIT}");
+        self.cached(build, &sources, &programs, &[&commands, &effort_text], |folder| {
+            let started = Instant::now();
+            let task =
+                Task { folder, programs: &programs, module: format!("sam_{}", build.module) };
+            task.read(&commands)?;
+            let verdicts = task.prove(effort)?;
+            Ok(Proof { verdicts, seconds: tenths(started) })
+        })
+    }
+
+    /// Whether a bug is caught by the property that is to catch it, that one alone: where it fails.
+    pub fn catches(&self, bug: &Bug) -> Result<Option<u32>, FlowError> {
+        let mut sources = self.sources(bug.module)?;
+        bug.plant(&mut sources)?;
+        let builds = self.builds(bug.module)?;
+        let is_it = |build: &&Build| build.label.split(", ").any(|label| label == bug.build);
+        let Some(build) = builds.iter().find(is_it) else {
+            return Err(bug.fault(&format!("there is no build “{}”", bug.build)));
+        };
+        let programs = Programs::find()?;
+        let commands = read_commands(&sources, build);
+        let effort = Effort::of(bug.module);
+        let what = format!("{} {}", bug.property, effort.bound);
+        self.cached(build, &sources, &programs, &[&commands, &what], |folder| {
+            let task =
+                Task { folder, programs: &programs, module: format!("sam_{}", build.module) };
+            task.read(&commands)?;
+            let all = task.labels()?;
+            let (kept, others): (Vec<_>, Vec<_>) = all
+                .into_iter()
+                .partition(|label| name_of(label).strip_prefix("p_") == Some(bug.property));
+            if kept.is_empty() {
+                return Err(bug.fault("there is no such property"));
+            }
+            match task.bounded(&others, effort.bound)? {
+                Run::Failed { step, .. } => Ok(Some(step)),
+                _ => Ok(None),
+            }
+        })
+    }
+
+    fn sources(&self, module: &str) -> Result<Sources, FlowError> {
+        sources::read(&self.rtl, &format!("sam_{module}"))
+            .map_err(|e| FlowError::Read { path: e.path, source: e.source })
+    }
+
+    fn cached<T: Serialize + serde::de::DeserializeOwned>(
+        &self,
+        build: &Build,
+        sources: &Sources,
+        programs: &Programs,
+        inputs: &[&str],
+        find: impl FnOnce(&Folder) -> Result<T, FlowError>,
+    ) -> Result<T, FlowError> {
+        let mut all = vec![programs.yosys.text.as_bytes(), programs.yices.text.as_bytes()];
+        all.extend(inputs.iter().map(|text| text.as_bytes()));
+        flow::cached(&self.cache, &format!("sam_{}", build.module), sources, &all, find)
+    }
+}
+
+/// Seconds since then, to a tenth.
+fn tenths(started: Instant) -> f64 {
+    (started.elapsed().as_secs_f64() * 10.0).round() / 10.0
+}
+
+/// A label without the blocks it is in.
+fn name_of(label: &str) -> &str {
+    label.rsplit('.').next().unwrap_or(label)
+}
+
+/// Whether a label is that of a property, not of a lemma.
+pub fn is_property(label: &str) -> bool {
+    name_of(label).starts_with("p_")
+}
+
+/// The parameters of a module in a configuration.
+fn parameters(module: &str, text: &str, config: &Config) -> Vec<(String, u32)> {
+    let own = |(name, value): (&str, u32)| (name.to_owned(), value);
+    match Target::named(module) {
+        Some(target) => target.interface(config).parameters.into_iter().map(own).collect(),
+        None => {
+            let lines = text.lines().filter_map(|line| line.trim().strip_prefix("parameter "));
+            let names = lines.filter_map(|line| line.split(' ').next());
+            names.filter_map(|name| Some(own((name, config.get(name)?)))).collect()
+        }
+    }
+}
+
+/// Yosys commands that read a build, its own properties included.
+fn read_commands(sources: &Sources, build: &Build) -> String {
+    let module = format!("sam_{}", build.module);
+    let own = format!("{module}.v");
+    let others = sources.keys().filter(|name| name.ends_with(".v") && **name != own);
+    let others: String = others.map(|name| format!(" {name}")).collect();
+    let plain = match others.is_empty() {
+        true => others,
+        false => format!("read_verilog -I .{others}; "),
+    };
+    let set = flow::set_parameters(&module, &build.parameters);
+    // Tables must not become memories that begin with anything.
+    format!(
+        "{plain}read_verilog -formal -I . {own}; {set}prep -top {module} -flatten; \
+         memory_map; opt_clean; async2sync; dffunmap"
+    )
+}
+
+impl Programs {
+    fn find() -> Result<Programs, FlowError> {
+        Ok(Programs { yosys: YOSYS.find()?, smtbmc: YOSYS_SMTBMC.find()?, yices: YICES.find()? })
+    }
+}
+
+/// What came of a run of the prover.
+enum Run {
+    /// It holds; the clocks of induction that were needed.
+    Passed(u32),
+    /// These do not hold after so many clocks.
+    Failed { step: u32, labels: Vec<String> },
+    /// Stopped after so many clocks.
+    Stopped(u32),
+}
+
+/// A proof in a folder.
+struct Task<'a> {
+    folder: &'a Folder,
+    programs: &'a Programs,
+    module: String,
+}
+
+impl Task<'_> {
+    /// Reads the Verilog, for all runs.
+    fn read(&self, commands: &str) -> Result<(), FlowError> {
+        let script =
+            format!("{commands}; tee -q -o labels select -list t:$assert; write_ilang base.il");
+        let mut command = self.folder.command(&self.programs.yosys);
+        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))
+    }
+
+    /// The labels of all assertions.
+    fn labels(&self) -> Result<Vec<String>, FlowError> {
+        let text = self.folder.read("labels")?;
+        let names = text.lines().filter_map(|line| line.trim().split_once('/'));
+        Ok(names.map(|(_, name)| name.to_owned()).collect())
+    }
+
+    /// All properties together or, where that takes too long, each by itself with the lemmas.
+    fn prove(&self, effort: Effort) -> Result<BTreeMap<String, Verdict>, FlowError> {
+        let labels = self.labels()?;
+        let (alone, lemmas): (Vec<_>, Vec<_>) =
+            labels.iter().cloned().partition(|label| is_property(label));
+        // Without registers nothing is gained by proving all at once.
+        if effort.induction > 1 || alone.len() == 1 {
+            let (verdicts, stopped) = self.prove_some(&labels, &[], effort)?;
+            if !stopped || alone.len() == 1 {
+                return Ok(verdicts);
+            }
+        }
+        let mut all = BTreeMap::new();
+        for label in &alone {
+            let others: Vec<String> = alone.iter().filter(|l| *l != label).cloned().collect();
+            let with_it: Vec<String> = lemmas.iter().chain([label]).cloned().collect();
+            all.extend(self.prove_some(&with_it, &others, effort)?.0);
+        }
+        Ok(all)
+    }
+
+    /// Induction of what can be proved so, then so many clocks from reset; also whether a prover was
+    /// stopped. The assertions are `labels`, those that there are without `others`.
+    fn prove_some(
+        &self,
+        labels: &[String],
+        others: &[String],
+        effort: Effort,
+    ) -> Result<(BTreeMap<String, Verdict>, bool), FlowError> {
+        // What fails is left out until the rest is an induction.
+        let mut left_out = others.to_vec();
+        let mut stopped = false;
+        let depth = loop {
+            if left_out.len() == others.len() + labels.len() {
+                break 0;
+            }
+            match self.run(&left_out, &["-i"], effort.induction)? {
+                Run::Passed(depth) => break depth,
+                Run::Failed { labels, .. } if !labels.is_empty() => left_out.extend(labels),
+                run => {
+                    stopped = matches!(run, Run::Stopped(_));
+                    left_out.extend_from_slice(labels);
+                    break 0;
+                }
+            }
+        };
+        let is_inductive = |label: &String| !left_out.contains(label);
+        let inductive = |label: &String| (label.clone(), Verdict::Induction(depth));
+        // What holds in every state needs no base.
+        if depth == 0 && labels.iter().all(is_inductive) {
+            return Ok((labels.iter().map(inductive).collect(), false));
+        }
+        let bound = match labels.iter().all(is_inductive) {
+            true => effort.induction,
+            false => effort.bound,
+        };
+        let (reached, failed) = match self.bounded(others, bound)? {
+            Run::Passed(_) => (bound, Vec::new()),
+            Run::Failed { step, labels } => (step, labels),
+            Run::Stopped(reached) => {
+                stopped = true;
+                (reached, Vec::new())
+            }
+        };
+        let verdict = |label: &String| match is_inductive(label) {
+            _ if failed.contains(label) => (label.clone(), Verdict::Fails(reached)),
+            true if reached >= effort.induction => inductive(label),
+            _ => (label.clone(), Verdict::Bounded(reached)),
+        };
+        Ok((labels.iter().map(verdict).collect(), stopped))
+    }
+
+    /// So many clocks from reset.
+    fn bounded(&self, left_out: &[String], clocks: u32) -> Result<Run, FlowError> {
+        // A contradiction among the assumptions would prove anything.
+        self.run(left_out, &["--presat"], clocks)
+    }
+
+    /// Runs the prover without some assertions.
+    fn run(&self, left_out: &[String], mode: &[&str], clocks: u32) -> Result<Run, FlowError> {
+        let deleted: String =
+            left_out.iter().map(|label| format!("delete {}/{label}; ", self.module)).collect();
+        let script = format!("read_ilang base.il; {deleted}write_smt2 -wires model.smt2");
+        let mut command = self.folder.command(&self.programs.yosys);
+        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
+        // It has no limit of its own, and would leave its solver behind if it alone were stopped.
+        let mut command = Command::new("timeout");
+        command.current_dir(self.folder.path()).env("PATH", tools::search_path());
+        command.arg(LIMIT.to_string()).arg(&self.programs.smtbmc.program);
+        command.args(["-s", "yices"]).args(mode).args(["-t", &clocks.to_string(), "model.smt2"]);
+        let output = self.folder.output(&mut command)?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let step = step(&text).unwrap_or(0);
+        if text.contains("Status: PASSED") {
+            // Induction counts its steps down.
+            return Ok(Run::Passed(clocks.saturating_sub(step)));
+        }
+        if text.contains("Status: FAILED") {
+            let labels = text.lines().filter_map(|line| {
+                line.split_once("Assert failed in ")?
+                    .1
+                    .split_once(": ")
+                    .map(|(_, name)| name.trim())
+            });
+            let labels: Vec<String> = labels.map(str::to_owned).collect();
+            if labels.is_empty() && !mode.contains(&"-i") {
+                return Err(self.folder.failed(&YOSYS_SMTBMC, &text));
+            }
+            return Ok(Run::Failed { step, labels });
+        }
+        // Status 124: stopped.
+        match output.status.code() {
+            Some(124) => Ok(Run::Stopped(step)),
+            _ => {
+                let text = [output.stdout, output.stderr].concat();
+                Err(self.folder.failed(&YOSYS_SMTBMC, &String::from_utf8_lossy(&text)))
+            }
+        }
+    }
+}
+
+/// The last step that the prover has spoken of.
+fn step(text: &str) -> Option<u32> {
+    let last = text.rfind(" in step ").map(|at| &text[at + " in step ".len()..])?;
+    last.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
+}

@@ -1,0 +1,94 @@
+//! Netlists of gates against the Verilog that they were made of: the same for ever, by induction over
+//! the registers, which synthesis leaves their names.
+
+use super::{tenths, Prover, LIMIT};
+use crate::flow::{self, FlowError};
+use crate::tools::{self, YOSYS};
+use serde::{Deserialize, Serialize};
+use std::process::Command;
+use std::time::Instant;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::targets::Target;
+
+/// What came of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Equivalence {
+    /// Signals of both that were compared; 0 if the prover was stopped.
+    pub points: u32,
+    /// Those of them that were not proved equal.
+    pub open: u32,
+    /// On the clock.
+    pub seconds: f64,
+}
+
+impl Equivalence {
+    /// Whether the netlist was proved.
+    pub fn closes(&self) -> bool {
+        self.points > 0 && self.open == 0
+    }
+}
+
+impl Prover {
+    /// Compares the netlist of generic gates of a target with its Verilog.
+    pub fn equivalence(&self, target: Target, config: &Config) -> Result<Equivalence, FlowError> {
+        let interface = target.interface(config);
+        let module = interface.module;
+        let sources = self.sources(target.name())?;
+        let yosys = YOSYS.find()?;
+        let script = script(&flow::read_commands(&sources, module, &interface.parameters), module);
+        let limit = LIMIT.to_string();
+        let inputs = [&yosys.text, &script, &limit].map(|text| text.as_bytes());
+        flow::cached(&self.cache, module, &sources, &inputs, |folder| {
+            let started = Instant::now();
+            let mut command = Command::new("timeout");
+            command.current_dir(folder.path()).env("PATH", tools::search_path());
+            command.arg(&limit).arg(&yosys.program).args(["-q", "-p", &script]);
+            let output = folder.output(&mut command)?;
+            let (points, open) = match output.status.code() {
+                Some(124) => (0, 0),
+                Some(0) => {
+                    let stat = folder.read("stat")?;
+                    points(&stat).ok_or_else(|| folder.failed(&YOSYS, &stat))?
+                }
+                _ => {
+                    let text = [output.stdout, output.stderr].concat();
+                    return Err(folder.failed(&YOSYS, &String::from_utf8_lossy(&text)));
+                }
+            };
+            Ok(Equivalence { points, open, seconds: tenths(started) })
+        })
+    }
+}
+
+/// Yosys commands: the Verilog elaborated, the netlist made as its gates are counted, both compared.
+fn script(read: &str, module: &str) -> String {
+    format!(
+        "{read}hierarchy -top {module}; design -save rtl; \
+         synth -flatten -top {module}; rename {module} gate; design -stash gate; \
+         design -load rtl; prep -flatten -top {module}; memory_map; opt_clean; \
+         rename {module} gold; design -stash gold; \
+         design -copy-from gold -as gold gold; design -copy-from gate -as gate gate; \
+         equiv_make gold gate equal; hierarchy -top equal; clean; \
+         equiv_struct; equiv_simple -undef; equiv_induct -undef -seq 4; \
+         tee -q -o stat equiv_status"
+    )
+}
+
+/// How many points were compared, and how many of them are open.
+fn points(stat: &str) -> Option<(u32, u32)> {
+    let words = |line: &str| line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    let numbers: Vec<u32> = stat.lines().find(|line| line.contains("are proven")).map(words)?;
+    let [proved, open] = numbers[..] else { return None };
+    Some((proved + open, open))
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn points_are_read() {
+        let stat =
+            "Found 7 $equiv cells in equal:\n  Of those cells 5 are proven and 2 are unproven.\n";
+        assert_eq!(super::points(stat), Some((7, 2)));
+        assert_eq!(super::points("nothing"), None);
+    }
+}

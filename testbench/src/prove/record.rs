@@ -1,0 +1,190 @@
+//! The committed record of what is proved, and the tables of `docs/formal.md`.
+
+use super::{properties, Build, Equivalence, Proof, Verdict};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use wheatstone_golden::picture::{write_file, WriteError};
+
+/// Where it is in the workspace.
+pub const FILE: &str = "formal/record.json";
+
+/// What was proved of a build.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Proved {
+    /// Module without `sam_`.
+    pub module: String,
+    /// The build's label.
+    pub build: String,
+    /// What came of it.
+    #[serde(flatten)]
+    pub proof: Proof,
+}
+
+impl Proved {
+    /// Of a build.
+    pub fn of(build: &Build, proof: Proof) -> Proved {
+        Proved { module: build.module.clone(), build: build.label.clone(), proof }
+    }
+
+    /// The verdict of a property, whatever block it is in.
+    pub fn verdict(&self, property: &str) -> Option<Verdict> {
+        let label = format!("p_{property}");
+        let mut verdicts = self.proof.verdicts.iter();
+        verdicts.find(|(name, _)| super::name_of(name) == label).map(|(_, verdict)| *verdict)
+    }
+}
+
+/// What came of the comparison of a netlist.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Compared {
+    /// The target's name.
+    pub target: String,
+    /// Name of the configuration.
+    pub config: String,
+    /// What came of it.
+    #[serde(flatten)]
+    pub equivalence: Equivalence,
+}
+
+/// The record could not be read.
+#[derive(Debug, Error)]
+#[error("{}: {why}; write it with: wheatstone prove --record", .path.display())]
+pub struct RecordError {
+    /// The file.
+    pub path: PathBuf,
+    /// Why.
+    pub why: String,
+}
+
+/// Everything that was proved.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Properties, by module and build.
+    pub proofs: Vec<Proved>,
+    /// Netlists, by target and configuration.
+    pub netlists: Vec<Compared>,
+}
+
+impl Record {
+    /// The record of a workspace.
+    pub fn read(workspace: &Path) -> Result<Record, RecordError> {
+        let path = workspace.join(FILE);
+        let parsed = std::fs::read(&path)
+            .map_err(|error| error.to_string())
+            .and_then(|text| serde_json::from_slice(&text).map_err(|error| error.to_string()));
+        parsed.map_err(|why| RecordError { path, why })
+    }
+
+    /// Writes it, an entry a line, so that a change shows as such.
+    pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
+        let text = format!(
+            "{{\n\"proofs\": [\n{}\n],\n\"netlists\": [\n{}\n]\n}}\n",
+            lines(&self.proofs),
+            lines(&self.netlists)
+        );
+        write_file(&workspace.join(FILE), text.as_bytes())
+    }
+
+    /// Puts entries in the place of older ones; of a module with new proofs all older ones go.
+    pub fn update(&mut self, proofs: &[Proved], netlists: &[Compared]) {
+        self.proofs.retain(|old| !proofs.iter().any(|new| new.module == old.module));
+        self.proofs.extend_from_slice(proofs);
+        self.proofs.sort_by_key(|entry| entry.module.clone());
+        let same = |old: &Compared, new: &Compared| {
+            (&old.target, &old.config) == (&new.target, &new.config)
+        };
+        self.netlists.retain(|old| !netlists.iter().any(|new| same(old, new)));
+        self.netlists.extend_from_slice(netlists);
+        self.netlists.sort_by_key(|entry| (entry.target.clone(), entry.config.clone()));
+    }
+
+    /// What is proved for less than the record says, a line each; also what is not in it.
+    pub fn faults(&self, proofs: &[Proved]) -> Vec<String> {
+        let mut faults = Vec::new();
+        for new in proofs {
+            let what = format!("{} ({})", new.module, new.build);
+            let is_it = |old: &&Proved| (&old.module, &old.build) == (&new.module, &new.build);
+            let Some(old) = self.proofs.iter().find(is_it) else {
+                faults.push(format!("{what}: not in {FILE}"));
+                continue;
+            };
+            for (label, verdict) in &old.proof.verdicts {
+                let now = new.proof.verdicts.get(label);
+                if now.map_or(0, |now| rank(*now)) < rank(*verdict) {
+                    faults.push(format!("{what}: {label}: {now:?}, recorded {verdict:?}"));
+                }
+            }
+        }
+        faults
+    }
+
+    /// The tables of a workspace's page.
+    pub fn tables(&self, workspace: &Path) -> String {
+        let mut text = String::new();
+        let mut modules: BTreeMap<&str, Vec<&Proved>> = BTreeMap::new();
+        for proved in &self.proofs {
+            modules.entry(&proved.module).or_default().push(proved);
+        }
+        for (module, proofs) in modules {
+            let path = workspace.join(format!("rtl/sam_{module}.v"));
+            let source = std::fs::read_to_string(path).unwrap_or_default();
+            let seconds: Vec<String> = proofs.iter().map(|proved| told(proved)).collect();
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "\n### {module}\n\n{}.\n", seconds.join("; "));
+            let _ = writeln!(text, "| property | | proved |\n| --- | --- | --- |");
+            for property in properties(&source) {
+                let verdicts = proofs.iter().filter_map(|proved| proved.verdict(&property.name));
+                let shown = verdicts.min().map_or("–".into(), shown);
+                let _ = writeln!(text, "| `{}` | {} | {shown} |", property.name, property.sentence);
+            }
+        }
+        text
+    }
+
+    /// The table of netlists.
+    pub fn netlist_table(&self) -> String {
+        let mut text = String::from(
+            "\n| target | configuration | points | open | seconds |\n| --- | --- | --- | --- | --- |\n",
+        );
+        for Compared { target, config, equivalence } in &self.netlists {
+            let Equivalence { points, open, seconds } = equivalence;
+            let points = match points {
+                0 => "does not close".into(),
+                points => points.to_string(),
+            };
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "| {target} | `{config}` | {points} | {open} | {seconds:.1} |");
+        }
+        text
+    }
+}
+
+/// Verdicts from the worst to the best, whatever their clocks.
+fn rank(verdict: Verdict) -> u32 {
+    match verdict {
+        Verdict::Fails(_) => 0,
+        Verdict::Bounded(_) => 1,
+        Verdict::Induction(_) => 2,
+    }
+}
+
+fn lines<T: Serialize>(entries: &[T]) -> String {
+    let lines = entries.iter().map(|entry| serde_json::to_string(entry).unwrap_or_default());
+    lines.collect::<Vec<_>>().join(",\n")
+}
+
+fn told(proved: &Proved) -> String {
+    format!("{} in {:.1} s", proved.build, proved.proof.seconds)
+}
+
+/// A verdict as a table shows it.
+pub fn shown(verdict: Verdict) -> String {
+    match verdict {
+        Verdict::Fails(step) => format!("**fails** at {step}"),
+        Verdict::Bounded(clocks) => format!("{clocks} clocks"),
+        Verdict::Induction(_) => "always".into(),
+    }
+}
