@@ -22,6 +22,7 @@ mod outcome;
 pub mod pack;
 mod ports;
 pub mod regression;
+pub mod replay;
 mod scratch;
 pub mod settings;
 mod shim;

@@ -23,6 +23,7 @@ mod cosim;
 mod generate;
 mod info;
 mod render;
+mod replay;
 mod reproduce;
 mod synth;
 mod vectors;
@@ -31,6 +32,7 @@ mod waves;
 use crate::generated::GenerateError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
+use crate::replay::ReplayError;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::RecordError;
 use crate::synth::SynthError;
@@ -88,6 +90,8 @@ enum Command {
     Vectors(vectors::VectorsArgs),
     /// Verify a vector pack, or a folder of them
     Check(vectors::CheckArgs),
+    /// Replay vector packs in Icarus, in cocotb and on gate-level netlists
+    Replay(replay::ReplayArgs),
     /// Write waveforms of a target, with a view for GTKWave and Surfer
     Waves(waves::WavesArgs),
     /// Draw a scene in stereo with the golden model
@@ -197,6 +201,8 @@ enum Failure {
     #[error(transparent)]
     Synth(#[from] SynthError),
     #[error(transparent)]
+    Replay(#[from] ReplayError),
+    #[error(transparent)]
     Record(#[from] RecordError),
     #[error("{0}")]
     Input(String),
@@ -207,6 +213,7 @@ impl Failure {
         match self {
             Failure::Tool(_)
             | Failure::Synth(SynthError::Tool(_))
+            | Failure::Replay(ReplayError::Tool(_) | ReplayError::Synth(SynthError::Tool(_)))
             | Failure::Regression(RegressionError::Build(BuildError::Tool(_))) => MISSING_TOOL,
             _ => BAD_INPUT,
         }
@@ -220,6 +227,7 @@ pub fn main() -> ExitCode {
         Command::Cosim(args) => cosim::run(args),
         Command::Vectors(args) => vectors::write(args),
         Command::Check(args) => vectors::check(args),
+        Command::Replay(args) => replay::run(args),
         Command::Waves(args) => waves::run(args),
         Command::Render(args) => render::run(args),
         Command::Compare(args) => compare::run(args),

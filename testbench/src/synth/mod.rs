@@ -6,12 +6,16 @@
 
 mod fpga;
 mod gates;
+mod netlist;
 pub mod record;
+
+pub use netlist::Cells;
 
 use crate::scratch::Scratch;
 use crate::sources::{self, Sources};
 use crate::tools::{self, Found, Tool, ToolError};
 use crate::verilate::{entry, short};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -148,14 +152,24 @@ impl Synthesiser {
         tech: Tech,
     ) -> Result<Figures, SynthError> {
         let interface = target.interface(config);
-        let sources = sources::read(&self.rtl, interface.module)
-            .map_err(|e| SynthError::Read { path: e.path, source: e.source })?;
+        let sources = self.sources(&interface)?;
         let design = Design { interface: &interface, sources: &sources, cache: &self.cache };
         match tech {
             Tech::Gates => gates::measure(&design),
             Tech::Ice40 => fpga::measure(&design, &fpga::ICE40),
             Tech::Ecp5 => fpga::measure(&design, &fpga::ECP5),
         }
+    }
+
+    /// The gate-level netlist of a module with the parameters of its interface, as Verilog.
+    pub fn netlist(&self, interface: &Interface, cells: Cells) -> Result<String, SynthError> {
+        let sources = self.sources(interface)?;
+        netlist::make(&Design { interface, sources: &sources, cache: &self.cache }, cells)
+    }
+
+    fn sources(&self, interface: &Interface) -> Result<Sources, SynthError> {
+        sources::read(&self.rtl, interface.module)
+            .map_err(|e| SynthError::Read { path: e.path, source: e.source })
     }
 }
 
@@ -186,11 +200,11 @@ impl Design<'_> {
 
     /// What `measure` finds, kept under a hash of the sources and of `inputs`: everything else that
     /// the result depends on.
-    fn cached(
+    fn cached<T: Serialize + DeserializeOwned>(
         &self,
         inputs: &[&[u8]],
-        measure: impl FnOnce(&Folder) -> Result<Figures, SynthError>,
-    ) -> Result<Figures, SynthError> {
+        measure: impl FnOnce(&Folder) -> Result<T, SynthError>,
+    ) -> Result<T, SynthError> {
         let mut hash = blake3::Hasher::new();
         for (name, content) in self.sources {
             entry(&mut hash, name.as_bytes(), content);
@@ -198,13 +212,13 @@ impl Design<'_> {
         inputs.iter().for_each(|input| entry(&mut hash, b"input", input));
         let file = self.cache.join(format!("{}-{}.json", self.module(), short(&hash)));
         let known = fs::read(&file).ok().and_then(|text| serde_json::from_slice(&text).ok());
-        if let Some(figures) = known {
-            return Ok(figures);
+        if let Some(result) = known {
+            return Ok(result);
         }
-        let figures = measure(&Folder::of(self)?)?;
-        let text = serde_json::to_vec(&figures).unwrap_or_default();
+        let result = measure(&Folder::of(self)?)?;
+        let text = serde_json::to_vec(&result).unwrap_or_default();
         write_file(&file, &text)?;
-        Ok(figures)
+        Ok(result)
     }
 }
 
