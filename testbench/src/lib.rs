@@ -11,6 +11,7 @@
 mod bench;
 pub mod cases;
 pub mod cli;
+pub mod cover;
 mod cursors;
 mod drive;
 pub mod generated;

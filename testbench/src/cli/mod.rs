@@ -20,6 +20,7 @@ macro_rules! tell {
 
 mod compare;
 mod cosim;
+mod cover;
 mod generate;
 mod info;
 mod render;
@@ -29,6 +30,7 @@ mod synth;
 mod vectors;
 mod waves;
 
+use crate::cover::CoverError;
 use crate::generated::GenerateError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
@@ -92,6 +94,8 @@ enum Command {
     Check(vectors::CheckArgs),
     /// Replay vector packs in Icarus, in cocotb and on gate-level netlists
     Replay(replay::ReplayArgs),
+    /// Count which lines, bits and combinations of the stimulus the regression covers
+    Cover(cover::CoverArgs),
     /// Write waveforms of a target, with a view for GTKWave and Surfer
     Waves(waves::WavesArgs),
     /// Draw a scene in stereo with the golden model
@@ -203,6 +207,8 @@ enum Failure {
     #[error(transparent)]
     Replay(#[from] ReplayError),
     #[error(transparent)]
+    Cover(#[from] CoverError),
+    #[error(transparent)]
     Record(#[from] RecordError),
     #[error("{0}")]
     Input(String),
@@ -214,7 +220,10 @@ impl Failure {
             Failure::Tool(_)
             | Failure::Synth(SynthError::Tool(_))
             | Failure::Replay(ReplayError::Tool(_) | ReplayError::Synth(SynthError::Tool(_)))
-            | Failure::Regression(RegressionError::Build(BuildError::Tool(_))) => MISSING_TOOL,
+            | Failure::Regression(RegressionError::Build(BuildError::Tool(_)))
+            | Failure::Cover(CoverError::Regression(RegressionError::Build(BuildError::Tool(_)))) => {
+                MISSING_TOOL
+            }
             _ => BAD_INPUT,
         }
     }
@@ -228,6 +237,7 @@ pub fn main() -> ExitCode {
         Command::Vectors(args) => vectors::write(args),
         Command::Check(args) => vectors::check(args),
         Command::Replay(args) => replay::run(args),
+        Command::Cover(args) => cover::run(args),
         Command::Waves(args) => waves::run(args),
         Command::Render(args) => render::run(args),
         Command::Compare(args) => compare::run(args),
