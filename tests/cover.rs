@@ -3,7 +3,6 @@
 use wheatstone_golden::targets::Target;
 use wheatstone_testbench::cover::{self, Counts, Report, Waiver};
 use wheatstone_testbench::regression::Plan;
-use wheatstone_testbench::tools::Toolchain;
 use wheatstone_tests::*;
 
 const TARGETS: [Target; 2] = [Target::Filter, Target::Blend];
@@ -14,9 +13,7 @@ fn waivers() -> Vec<Waiver> {
 }
 
 fn measure(plan: Plan) -> Counts {
-    let tools = Toolchain::find().unwrap_or_else(|missing| panic!("{missing}"));
-    let cache = workspace().join(cover::CACHE);
-    let measured = cover::measure(tools, &cache, &[plan], &|_| ());
+    let measured = cover::measure(builder(), &[plan], &|_| ());
     measured.unwrap_or_else(|error| panic!("{error}")).0
 }
 

@@ -4,6 +4,7 @@
 use crate::cli;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::{Record, RecordError};
+use crate::verification::{self, VerificationError};
 use std::fmt::Write;
 use std::path::Path;
 use thiserror::Error;
@@ -28,6 +29,8 @@ pub enum Generated {
     Readme,
     /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
     Theory,
+    /// `docs/verification.md`: what is covered, which packs replay where.
+    Verification,
 }
 
 /// Why a file could not be generated.
@@ -50,6 +53,9 @@ pub enum GenerateError {
     /// There is no record of area and timing.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// There is no record of coverage and replay.
+    #[error(transparent)]
+    Verification(#[from] VerificationError),
 }
 
 /// Line after a generated part of a page.
@@ -59,7 +65,8 @@ impl Generated {
     /// All generated files.
     pub fn all() -> impl Iterator<Item = Generated> {
         let pages = Target::ALL.into_iter().map(Generated::Page);
-        [Generated::Header].into_iter().chain(pages).chain([Generated::Readme, Generated::Theory])
+        let rest = [Generated::Readme, Generated::Theory, Generated::Verification];
+        [Generated::Header].into_iter().chain(pages).chain(rest)
     }
 
     /// Path below the workspace.
@@ -69,6 +76,7 @@ impl Generated {
             Generated::Page(target) => format!("docs/{}.md", target.name()),
             Generated::Readme => "README.md".into(),
             Generated::Theory => "docs/theory.md".into(),
+            Generated::Verification => "docs/verification.md".into(),
         }
     }
 
@@ -86,6 +94,12 @@ impl Generated {
             Generated::Theory => {
                 let text = self.between(present, "cost", &cost_table())?;
                 self.between(&text, "quality", &quality_table(workspace)?)
+            }
+            Generated::Verification => {
+                let record = verification::Record::read(workspace)?;
+                let text = self.between(present, "coverage", &record.coverage_table())?;
+                let text = self.between(&text, "crossing", &record.crossing_table())?;
+                self.between(&text, "replay", &record.replay_table())
             }
         }
     }

@@ -32,6 +32,7 @@ mod speed;
 mod stalls;
 pub mod synth;
 pub mod tools;
+pub mod verification;
 mod verilate;
 pub mod waves;
 

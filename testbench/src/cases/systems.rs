@@ -309,7 +309,10 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
 
     // Inside the stereo pipeline there are no beats but the primary's own.
     let stray = Some(stray).filter(|_| !stereo);
-    let largest = [[f.max_size, 12], [12, f.max_size]].map(|size| large(target, config, size));
+    // So that every bit of width and height is 0 in one and 1 in another.
+    let largest = [[f.max_size, 12], [f.max_size - 1, 19]].into_iter();
+    let largest = largest.flat_map(|[a, b]| [[a, b], [b, a]]);
+    let largest = largest.map(|size| large(target, config, size));
     let every = (target == Target::Hybrid).then(|| every_kind(config));
     let rest = [crowded, turned, cleared].into_iter().chain(largest).chain(every);
     [spoiled].into_iter().chain(stray).chain(rest).collect()
@@ -323,7 +326,7 @@ fn large(target: Target, config: &Config, size: [u32; 2]) -> Case {
     let f = Formats::new(config);
     let mut triangles = Triangles::new(8, f, size[0], size[1]);
     let polygons: Vec<Polygon> =
-        (0..400).map(|id| Polygon { id, ..triangles.triangle(Class::Px2) }).collect();
+        (0..200).map(|id| Polygon { id, ..triangles.triangle(Class::Px2) }).collect();
     let job = job(config, Options::new(config), size, &polygons);
     let minimal = target == Target::Minimal;
     let mut tape = Tape::new(&job, minimal, false);

@@ -23,6 +23,9 @@ pub(super) struct CoverArgs {
     /// Write a JSON report
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write what is covered into the record; `wheatstone generate` then renews the tables
+    #[arg(long, conflicts_with = "targets")]
+    record: bool,
     /// Write every Verilog file with its counts to this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -35,14 +38,12 @@ pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
     let rtl = rtl_folder(&args.rtl)?;
     let waivers = waivers()?;
     let plans = plans(args, &rtl)?;
-    let cache = cache_folder(workspace(), cover::CACHE, |name| std::env::var_os(name));
     let spinner = Spinner::new();
-    let (counts, bins) =
-        cover::measure(Toolchain::find()?, &cache, &plans, &|event| match event {
-            Event::Build(progress) => spinner.print(|| tell!("{progress}")),
-            Event::Begin(target, case) => spinner.tell(target.name(), case),
-            _ => {}
-        })?;
+    let (counts, bins) = cover::measure(builder(is_terminal())?, &plans, &|event| {
+        if let Event::Begin(target, case) = event {
+            spinner.tell(target.name(), case);
+        }
+    })?;
     drop(spinner);
     let whole = args.targets.is_empty();
     let mut report = Report::new(&counts, &waivers);
@@ -58,6 +59,9 @@ pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
     }
     if let Some(out) = &args.out {
         annotate(out, &rtl, &counts, &report)?;
+    }
+    if let (true, Some(bins)) = (args.record, bins) {
+        update_record(|record| record.cover(&report, bins))?;
     }
     Ok(verdict(&report, bins))
 }

@@ -39,6 +39,7 @@ use crate::settings::{SettingError, Settings};
 use crate::synth::record::RecordError;
 use crate::synth::SynthError;
 use crate::tools::{ToolError, Toolchain};
+use crate::verification::{self, Record, VerificationError};
 use crate::{BuildError, Builder};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -209,6 +210,8 @@ enum Failure {
     #[error(transparent)]
     Cover(#[from] CoverError),
     #[error(transparent)]
+    Verification(#[from] VerificationError),
+    #[error(transparent)]
     Record(#[from] RecordError),
     #[error("{0}")]
     Input(String),
@@ -353,6 +356,25 @@ pub(crate) fn workspace() -> Option<PathBuf> {
     let source = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders = here.ancestors().chain(source.ancestors());
     folders.find(|folder| folder.join(MARK).exists()).map(Path::to_path_buf)
+}
+
+/// The folder of the workspace; an error if there is none.
+fn root() -> Result<PathBuf, Failure> {
+    workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
+}
+
+/// Changes the record of coverage and replay.
+fn update_record(change: impl FnOnce(&mut Record)) -> Result<(), Failure> {
+    let root = root()?;
+    // The first one has nothing before it.
+    let mut record = match root.join(verification::FILE).exists() {
+        true => Record::read(&root)?,
+        false => Record::default(),
+    };
+    change(&mut record);
+    record.write(&root)?;
+    say!("{}: written; now run: wheatstone generate", verification::FILE);
+    Ok(())
 }
 
 /// The job that draws a scene's polygons.

@@ -6,6 +6,7 @@ use crate::pack::{self, Checked};
 use crate::regression::counted;
 use crate::replay::{ReplayError, Replayed, Replayer, Way};
 use crate::synth::Synthesiser;
+use crate::verification::Replay;
 use rayon::prelude::*;
 use wheatstone_golden::picture::write_file;
 
@@ -46,6 +47,9 @@ pub(super) struct ReplayArgs {
     /// Write a JSON report
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write what was equal into the record; `wheatstone generate` then renews the tables
+    #[arg(long, conflicts_with = "packs")]
+    record: bool,
     /// Folder of the Verilog [default: rtl of this workspace]
     #[arg(long, value_name = "DIR")]
     rtl: Option<PathBuf>,
@@ -77,12 +81,20 @@ impl WayChoice {
 /// A pack and how it is called in the table.
 struct Named {
     label: String,
+    /// The configuration it was made in, if it was made here.
+    config: String,
     pack: Checked,
 }
 
 impl Named {
     fn beats(&self) -> u64 {
         self.pack.manifest.ports.iter().map(|port| port.beats).sum()
+    }
+
+    /// Its line in the record.
+    fn replay(&self, way: Way) -> Replay {
+        let (target, config) = (self.pack.manifest.target.clone(), self.config.clone());
+        Replay { target, config, way: way.name().to_owned(), beats: self.beats() }
     }
 }
 
@@ -122,6 +134,13 @@ pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
     if let Some(file) = &args.json {
         write_file(file, json(&results).as_bytes())?;
     }
+    if args.record {
+        update_record(|record| {
+            results.iter().for_each(|(named, way, replayed)| {
+                record.replay(named.replay(*way), replayed.passed);
+            });
+        })?;
+    }
     let mut status = OK;
     for (named, way, replayed) in results.iter().filter(|(.., replayed)| !replayed.passed) {
         say!("\nMISMATCH {} {}\n{}", named.label, way.name(), replayed.said);
@@ -136,8 +155,9 @@ fn found(folder: &Path, targets: &[Target]) -> Result<Vec<Named>, Failure> {
         targets.is_empty() || targets.iter().any(|t| t.name() == pack.manifest.target)
     };
     let packs = pack::check(folder)?.into_iter().filter(is_wanted);
-    let packs: Vec<Named> =
-        packs.map(|pack| Named { label: pack.folder.display().to_string(), pack }).collect();
+    let packs: Vec<Named> = packs
+        .map(|pack| Named { label: pack.folder.display().to_string(), config: String::new(), pack })
+        .collect();
     if packs.is_empty() {
         let names = targets.iter().map(|t| t.name()).collect::<Vec<_>>().join(", ");
         return Err(Failure::Input(format!("{}: no pack of {names}", folder.display())));
@@ -159,7 +179,8 @@ fn make(args: &ReplayArgs, rtl: &Path, out: &Path) -> Result<Vec<Named>, Failure
             let hash = pack::rtl_hash(rtl, target.module())?;
             let written = pack::write(&case, args.seed, &hash, &out.join(name))?;
             for pack in pack::check(&written.folder)? {
-                packs.push(Named { label: format!("{} {name}", target.name()), pack });
+                let label = format!("{} {name}", target.name());
+                packs.push(Named { label, config: name.clone(), pack });
             }
         }
     }

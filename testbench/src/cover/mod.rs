@@ -12,19 +12,14 @@ mod waivers;
 
 pub use functional::{Bin, Bins, Ratio};
 pub use points::{Collector, Counts, Kind, Point};
-pub use report::{annotated, json, table, FileCoverage, Report, Share};
+pub use report::{annotated, crossing, divisions, json, table, FileCoverage, Report, Share};
 pub use waivers::{Waiver, WaiverError, FILE as WAIVERS};
 
 use crate::regression::{self, Entry, Event, Plan, RegressionError};
-use crate::tools::Toolchain;
 use crate::Builder;
 use std::io;
-use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
-
-/// The models that count, seen from the workspace's folder.
-pub const CACHE: &str = "target/wheatstone/cover";
 
 /// Random beats of each target in each configuration; what they leave out, more of them leave out too.
 pub const BEATS: u64 = 17_000;
@@ -58,13 +53,12 @@ pub enum CoverError {
 
 /// Runs the plans, each on models that count, and adds everything up.
 pub fn measure(
-    tools: Toolchain,
-    cache: &Path,
+    builder: Builder,
     plans: &[Plan],
     tell: &(dyn Fn(Event) + Sync),
 ) -> Result<(Counts, Bins), CoverError> {
     let collector = Arc::new(Collector::default());
-    let builder = Builder::new(tools, cache).covering(collector.clone());
+    let builder = builder.covering(collector.clone());
     let bins = Mutex::new(Bins::default());
     let listen = |event: Event| {
         if let Event::Run(case, stalls) = &event {

@@ -2,12 +2,13 @@
 
 use super::functional::{division_name, Ratio, TERMS};
 use super::{Bins, Counts, Kind, Point, Waiver};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use wheatstone_golden::pipeline::Mode;
 
 /// Points of a kind in a file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Share {
     /// Points.
     pub points: usize,
@@ -23,14 +24,8 @@ impl Share {
         self.points - self.covered - self.waived
     }
 
-    fn add(&mut self, other: Share) {
-        self.points += other.points;
-        self.covered += other.covered;
-        self.waived += other.waived;
-    }
-
     /// Per cent of the points that can be covered.
-    fn percent(&self) -> f64 {
+    pub fn percent(&self) -> f64 {
         match self.points - self.waived {
             0 => 100.0,
             can => 100.0 * self.covered as f64 / can as f64,
@@ -38,8 +33,20 @@ impl Share {
     }
 }
 
+impl std::ops::Add for Share {
+    type Output = Share;
+
+    fn add(self, other: Share) -> Share {
+        Share {
+            points: self.points + other.points,
+            covered: self.covered + other.covered,
+            waived: self.waived + other.waived,
+        }
+    }
+}
+
 /// A file of the Verilog.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileCoverage {
     /// Blocks of lines.
     pub lines: Share,
@@ -78,23 +85,23 @@ impl Report {
             }
             let file = report.files.entry(point.file.clone()).or_default();
             match point.kind {
-                Kind::Line => file.lines.add(share),
-                Kind::Toggle => file.toggles.add(share),
+                Kind::Line => file.lines = file.lines + share,
+                Kind::Toggle => file.toggles = file.toggles + share,
             }
         }
         let unneeded = waivers.iter().zip(needed).filter(|(_, needed)| !needed);
         report.stale = unneeded.map(|(waiver, _)| waiver.clone()).collect();
         report
     }
+}
 
+impl FileCoverage {
     /// Lines and toggles of all files.
-    pub fn total(&self) -> FileCoverage {
-        let mut total = FileCoverage::default();
-        for file in self.files.values() {
-            total.lines.add(file.lines);
-            total.toggles.add(file.toggles);
-        }
-        total
+    pub fn total<'a>(files: impl Iterator<Item = &'a FileCoverage>) -> FileCoverage {
+        files.fold(FileCoverage::default(), |sum, file| FileCoverage {
+            lines: sum.lines + file.lines,
+            toggles: sum.toggles + file.toggles,
+        })
     }
 }
 
@@ -115,7 +122,7 @@ fn right(mut table: comfy_table::Table) -> String {
 /// The tables for a terminal: files, then the crossing of the stimulus.
 pub fn table(report: &Report, bins: Option<&Bins>) -> String {
     let mut table = plain_table(&["file", "lines", "waived", "", "toggles", "waived", ""]);
-    let total = report.total();
+    let total = FileCoverage::total(report.files.values());
     let rows = report.files.iter().map(|(name, file)| (name.as_str(), file));
     for (name, file) in rows.chain([("all", &total)]) {
         let cells = [file.lines, file.toggles].map(|share| {
@@ -127,29 +134,39 @@ pub fn table(report: &Report, bins: Option<&Bins>) -> String {
     }
     let mut text = right(table);
     if let Some(bins) = bins {
-        let _ = write!(text, "\n\n{}", crossing(bins));
+        let _ = write!(text, "\n\n{}", crossing_table(bins));
     }
     text
 }
 
-/// Bins hit, by mode and ratio for each division.
-fn crossing(bins: &Bins) -> String {
-    let header = ["mode, ratio: bins hit"].into_iter().chain(TERMS.map(division_name));
-    let mut table = plain_table(&header.collect::<Vec<_>>());
-    for mode in 0..4u8 {
+/// Bins hit and bins, by mode and ratio, one of each division.
+pub fn crossing(bins: &Bins) -> Vec<(String, Vec<(usize, usize)>)> {
+    let of_mode = |mode: u8| {
         let ratios = match Mode(mode).is_binocular() {
             true => Ratio::ALL.map(Some).to_vec(),
             false => vec![None],
         };
-        for ratio in ratios {
-            let name = Mode::NAMES[usize::from(mode)];
-            let label = ratio.map_or(name.into(), |ratio| format!("{name}, {}", ratio.name()));
-            let share = TERMS.map(|terms| {
-                let (hit, all) = bins.share(mode, ratio, terms);
-                format!("{hit}/{all}")
-            });
-            table.add_row([label].into_iter().chain(share));
-        }
+        ratios.into_iter().map(move |ratio| (mode, ratio))
+    };
+    let row = |(mode, ratio): (u8, Option<Ratio>)| {
+        let name = Mode::NAMES[usize::from(mode)];
+        let label = ratio.map_or(name.into(), |ratio| format!("{name}, {}", ratio.name()));
+        (label, TERMS.map(|terms| bins.share(mode, ratio, terms)).to_vec())
+    };
+    (0..4).flat_map(of_mode).map(row).collect()
+}
+
+/// The divisions, in the order of [`crossing`].
+pub fn divisions() -> [&'static str; 3] {
+    TERMS.map(division_name)
+}
+
+fn crossing_table(bins: &Bins) -> String {
+    let header = ["mode, ratio: bins hit"].into_iter().chain(divisions());
+    let mut table = plain_table(&header.collect::<Vec<_>>());
+    for (label, shares) in crossing(bins) {
+        let shares = shares.iter().map(|(hit, all)| format!("{hit}/{all}"));
+        table.add_row([label].into_iter().chain(shares));
     }
     right(table)
 }
