@@ -6,6 +6,7 @@ use crate::cli;
 use crate::prove::record;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::{Record, RecordError};
+use crate::verification::{self, VerificationError};
 use std::fmt::Write;
 use std::path::Path;
 use thiserror::Error;
@@ -32,6 +33,8 @@ pub enum Generated {
     Readme,
     /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
     Theory,
+    /// `docs/verification.md`: what is covered, which packs replay where.
+    Verification,
 }
 
 /// Why a file could not be generated.
@@ -57,6 +60,9 @@ pub enum GenerateError {
     /// There is no record of what is proved.
     #[error(transparent)]
     Proofs(#[from] record::RecordError),
+    /// There is no record of coverage and replay.
+    #[error(transparent)]
+    Verification(#[from] VerificationError),
 }
 
 /// Line after a generated part of a page.
@@ -66,11 +72,13 @@ impl Generated {
     /// All generated files.
     pub fn all() -> impl Iterator<Item = Generated> {
         let pages = Target::ALL.into_iter().map(Generated::Page);
-        [Generated::Header].into_iter().chain(pages).chain([
+        let rest = [
             Generated::Formal,
             Generated::Readme,
             Generated::Theory,
-        ])
+            Generated::Verification,
+        ];
+        [Generated::Header].into_iter().chain(pages).chain(rest)
     }
 
     /// Path below the workspace.
@@ -81,6 +89,7 @@ impl Generated {
             Generated::Formal => "docs/formal.md".into(),
             Generated::Readme => "README.md".into(),
             Generated::Theory => "docs/theory.md".into(),
+            Generated::Verification => "docs/verification.md".into(),
         }
     }
 
@@ -108,6 +117,12 @@ impl Generated {
             Generated::Theory => {
                 let text = self.between(present, "cost", &cost_table())?;
                 self.between(&text, "quality", &quality_table(workspace)?)
+            }
+            Generated::Verification => {
+                let record = verification::Record::read(workspace)?;
+                let text = self.between(present, "coverage", &record.coverage_table())?;
+                let text = self.between(&text, "crossing", &record.crossing_table())?;
+                self.between(&text, "replay", &record.replay_table())
             }
         }
     }

@@ -8,6 +8,7 @@
 //! [`Cursors`], which know the length that each stream reads.
 #![allow(unsafe_code)]
 
+use crate::cover::Collector;
 use crate::cursors::{Cursor, Cursors, Words};
 use crate::layout::{Layout, Probe, CLOCK, RESET};
 use libloading::Library as Object;
@@ -56,6 +57,8 @@ api! {
     cycle: fn(Handle, u64, u32, u64, *mut Cursor, *const u64) -> Pair;
     cycle_traced: fn(Handle, u64, u32, u64, *mut Cursor, *const u64) -> Pair;
     probe: fn(Handle, u64, u64, *mut Cursor) -> Pair;
+    coverage_clear: fn(Handle);
+    coverage_write: fn(Handle, *const c_char);
     stopped: fn(Handle) -> *const c_char;
     trace_open: fn(Handle, *const c_char) -> bool;
     trace_flush: fn(Handle);
@@ -114,7 +117,11 @@ struct Loaded {
 
 /// A built model: any number of instances can be made of it. Cheap to clone.
 #[derive(Clone)]
-pub struct Library(Arc<Loaded>);
+pub struct Library {
+    loaded: Arc<Loaded>,
+    /// Where instances leave their coverage.
+    collector: Option<Arc<Collector>>,
+}
 
 impl Library {
     pub(crate) fn load(
@@ -142,27 +149,33 @@ impl Library {
         // SAFETY: the key covers the text of the shim.
         let api = unsafe { Api::of(&object) }.map_err(at)?;
         let (interface, probes) = (interface.clone(), probes.to_vec());
-        Ok(Library(Arc::new(Loaded { api, interface, probes, layout, _object: object })))
+        let loaded = Loaded { api, interface, probes, layout, _object: object };
+        Ok(Library { loaded: Arc::new(loaded), collector: None })
+    }
+
+    /// The same, whose instances leave their coverage in `collector` when they are dropped.
+    pub(crate) fn covering(self, collector: Arc<Collector>) -> Library {
+        Library { collector: Some(collector), ..self }
     }
 
     /// The module's interface.
     pub fn interface(&self) -> &Interface {
-        &self.0.interface
+        &self.loaded.interface
     }
 
     /// The units watched inside it.
     pub fn probes(&self) -> &[Probe] {
-        &self.0.probes
+        &self.loaded.probes
     }
 
     pub(crate) fn layout(&self) -> &Layout {
-        &self.0.layout
+        &self.loaded.layout
     }
 
     /// Whether both are the same.
     #[inline]
     pub(crate) fn is(&self, other: &Library) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
+        Arc::ptr_eq(&self.loaded, &other.loaded)
     }
 }
 
@@ -207,7 +220,7 @@ impl Model {
             message: CStr::from_bytes_until_nul(message)
                 .map_or_else(|_| String::new(), |text| text.to_string_lossy().into_owned()),
         };
-        let api = &library.0.api;
+        let api = &library.loaded.api;
         // SAFETY: the buffer is as long as said and begins with a zero.
         let handle = unsafe {
             let _one = CREATION.lock().unwrap_or_else(PoisonError::into_inner);
@@ -274,7 +287,7 @@ impl Model {
     /// Lets the model settle after ports were set.
     pub(crate) fn eval(&mut self) {
         // SAFETY: the handle lives.
-        unsafe { (self.library.0.api.eval)(self.handle.as_ptr()) }
+        unsafe { (self.library.loaded.api.eval)(self.handle.as_ptr()) }
     }
 
     /// Holds the reset for some clocks, with no stream driven.
@@ -284,15 +297,42 @@ impl Model {
             let driven = self.library.layout().streams[stream].driven();
             self.poke(driven, 0);
         }
-        for _ in 0..clocks {
+        for clock in 0..clocks {
             for level in [0, 1] {
                 self.poke(CLOCK, level);
                 self.eval();
+            }
+            if clock == 0 {
+                self.forget_start();
             }
         }
         self.poke(RESET, 0);
         self.poke(CLOCK, 0);
         self.eval();
+    }
+
+    /// Leaves out of the coverage what registers did on their way from a random state into reset.
+    fn forget_start(&mut self) {
+        if self.library.collector.is_some() {
+            // SAFETY: the handle lives.
+            unsafe { (self.library.loaded.api.coverage_clear)(self.handle.as_ptr()) }
+        }
+    }
+
+    /// Adds what was covered to the collector, if there is one.
+    fn leave_coverage(&mut self) {
+        let Some(collector) = self.library.collector.clone() else { return };
+        collector.add(|path| {
+            let name = CString::new(path.as_os_str().as_bytes())?;
+            // SAFETY: the handle lives, the name ends with a zero.
+            unsafe {
+                (self.library.loaded.api.coverage_write)(self.handle.as_ptr(), name.as_ptr());
+            }
+            match self.stopped() {
+                Some(why) => Err(std::io::Error::other(why)),
+                None => Ok(()),
+            }
+        });
     }
 
     /// One clock: ends the cycle before with the rising edge, then drives `valid` of the inputs
@@ -308,7 +348,7 @@ impl Model {
         cursors: &mut Cursors<'_>,
         words: &Words,
     ) -> Seen {
-        let (api, cursors) = (&self.library.0.api, cursors.of(&self.library));
+        let (api, cursors) = (&self.library.loaded.api, cursors.of(&self.library));
         let run = if self.window.contains(&cycle) { api.cycle_traced } else { api.cycle };
         // SAFETY: there is a cursor for every stream of this model; each is at a whole row of
         // its stream, or at the end of its table, and the shim keeps it so. No row is longer
@@ -323,8 +363,9 @@ impl Model {
     pub(crate) fn probe(&self, cycle: u64, watched: u64, cursors: &mut Cursors<'_>) -> Seen {
         let cursors = cursors.of(&self.library);
         // SAFETY: as in `cycle`; of the model nothing is changed.
-        let Pair { seen, wrong } =
-            unsafe { (self.library.0.api.probe)(self.handle.as_ptr(), cycle, watched, cursors) };
+        let Pair { seen, wrong } = unsafe {
+            (self.library.loaded.api.probe)(self.handle.as_ptr(), cycle, watched, cursors)
+        };
         Seen { seen, wrong }
     }
 
@@ -332,7 +373,7 @@ impl Model {
     pub fn stopped(&self) -> Option<String> {
         // SAFETY: the handle lives; the text is in it and ends with a zero.
         unsafe {
-            let text = (self.library.0.api.stopped)(self.handle.as_ptr());
+            let text = (self.library.loaded.api.stopped)(self.handle.as_ptr());
             (!text.is_null()).then(|| CStr::from_ptr(text).to_string_lossy().into_owned())
         }
     }
@@ -344,7 +385,8 @@ impl Model {
         std::fs::File::create(path).map_err(|source| error(Some(source)))?;
         let name = CString::new(path.as_os_str().as_bytes()).map_err(|_| error(None))?;
         // SAFETY: the handle lives, the name ends with a zero.
-        let open = unsafe { (self.library.0.api.trace_open)(self.handle.as_ptr(), name.as_ptr()) };
+        let open =
+            unsafe { (self.library.loaded.api.trace_open)(self.handle.as_ptr(), name.as_ptr()) };
         if !open {
             return Err(error(None));
         }
@@ -355,14 +397,14 @@ impl Model {
     /// Writes what is buffered of the waveform.
     pub(crate) fn trace_flush(&mut self) {
         // SAFETY: the handle lives.
-        unsafe { (self.library.0.api.trace_flush)(self.handle.as_ptr()) }
+        unsafe { (self.library.loaded.api.trace_flush)(self.handle.as_ptr()) }
     }
 
     /// Completes the waveform file.
     pub(crate) fn trace_close(&mut self) {
         self.window = 0..0;
         // SAFETY: the handle lives.
-        unsafe { (self.library.0.api.trace_close)(self.handle.as_ptr()) }
+        unsafe { (self.library.loaded.api.trace_close)(self.handle.as_ptr()) }
     }
 
     /// Runs the C++ loop of the shim over stimulus in columns, a slice a field of the inputs;
@@ -387,7 +429,7 @@ impl Model {
         let pointers: Vec<*const u64> = columns.iter().map(|column| column.as_ptr()).collect();
         // SAFETY: a column is read below the number of beats of its stream, which is its length.
         unsafe {
-            (self.library.0.api.bench)(
+            (self.library.loaded.api.bench)(
                 self.handle.as_ptr(),
                 gates.as_ptr(),
                 gates.len() as u64,
@@ -401,7 +443,8 @@ impl Model {
 
 impl Drop for Model {
     fn drop(&mut self) {
+        self.leave_coverage();
         // SAFETY: the handle is not used again; deletion closes the trace.
-        unsafe { (self.library.0.api.delete)(self.handle.as_ptr()) }
+        unsafe { (self.library.loaded.api.delete)(self.handle.as_ptr()) }
     }
 }

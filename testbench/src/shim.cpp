@@ -251,6 +251,19 @@ API Pair wheatstone_probe(const Handle* h, uint64_t cycle, uint64_t watched, Cur
     return probe(*h, cycle, watched, cursors);
 }
 
+// What the model counts of its own code, if it was built so.
+API void wheatstone_coverage_clear(Handle* h) {
+#if VM_COVERAGE
+    h->context.coveragep()->zero();
+#endif
+}
+
+API void wheatstone_coverage_write(Handle* h, const char* path) {
+#if VM_COVERAGE
+    h->guarded([=] { h->context.coveragep()->write(path); });
+#endif
+}
+
 API const char* wheatstone_stopped(const Handle* h) { return h->stopped ? h->text : nullptr; }
 
 API bool wheatstone_trace_open(Handle* h, const char* path) {

@@ -102,7 +102,8 @@ pub static GXX: Tool = Tool {
     package: "g++",
     version_arguments: &["-dumpfullversion"],
 };
-static ICARUS: Tool = Tool {
+/// Compiles Verilog for [`VVP`].
+pub static ICARUS: Tool = Tool {
     program: "iverilog",
     purpose: "replay of vectors, cross-check",
     optional: true,
@@ -110,7 +111,8 @@ static ICARUS: Tool = Tool {
     package: "iverilog",
     version_arguments: &["-V"],
 };
-static VVP: Tool = Tool {
+/// Runs what [`ICARUS`] compiled.
+pub static VVP: Tool = Tool {
     program: "vvp",
     purpose: "replay of vectors, cross-check",
     optional: true,
@@ -201,9 +203,19 @@ pub static NEXTPNR_ECP5: Tool = Tool {
     version_arguments: &["--version"],
 };
 
-/// The Liberty file of the OSU 0.35 µm standard cells.
-pub fn osu035() -> Result<PathBuf, ToolError> {
-    let path = PathBuf::from("/usr/share/qflow/tech/osu035/osu035_stdcells.lib");
+/// Drives Icarus from Python.
+pub static COCOTB: Tool = Tool {
+    program: "cocotb-config",
+    purpose: "replay of vectors in Python",
+    optional: true,
+    oldest: Some(Version { major: 2, minor: 0 }),
+    package: "scripts/setup-cocotb",
+    version_arguments: &["--version"],
+};
+
+/// The OSU 0.35 µm standard cells: `lib` has their areas (Liberty), `v` their models (Verilog).
+pub fn osu035(kind: &str) -> Result<PathBuf, ToolError> {
+    let path = PathBuf::from("/usr/share/qflow/tech/osu035/osu035_stdcells").with_extension(kind);
     path.is_file().then_some(path).ok_or(ToolError::Missing(&OSU035))
 }
 
@@ -295,7 +307,7 @@ fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
     })
 }
 
-/// Where `scripts/setup` and `scripts/setup-synth` put what comes from PyPI, seen from the workspace's folder.
+/// Where the scripts put what comes from PyPI, seen from the workspace's folder.
 pub const PYTHON_TOOLS: &str = "target/wheatstone/python";
 
 /// Where tools from PyPI keep what they compile.
@@ -389,6 +401,7 @@ impl Doctor {
             &GXX,
             &ICARUS,
             &VVP,
+            &COCOTB,
             &YOSYS,
             &YOSYS_SMTBMC,
             &YICES,
@@ -410,7 +423,8 @@ impl Doctor {
         };
         let zlib = zlib.map(|program| Found { program, version: None, text: String::new() });
         rows.insert(2, Examined { tool: &ZLIB, result: zlib });
-        let osu035 = osu035().map(|program| Found { program, version: None, text: String::new() });
+        let osu035 =
+            osu035("lib").map(|program| Found { program, version: None, text: String::new() });
         rows.push(Examined { tool: &OSU035, result: osu035 });
         Doctor { rows }
     }

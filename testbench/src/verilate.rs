@@ -6,6 +6,7 @@
 //! temporary folder of the process and then renamed, under a file lock: neither a second process nor
 //! a killed one leaves half a model, nor do the compilers that outlive a killed one.
 
+use crate::cover::Collector;
 use crate::layout::{Layout, Probe};
 use crate::model::{Library, LoadError};
 use crate::ports::{self, PortError};
@@ -18,6 +19,7 @@ use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 use wheatstone_golden::interface::Interface;
@@ -56,16 +58,20 @@ const GXX_FLAGS: &[&str] = &[
     "-DVM_TRACE=1",
     "-DVM_TRACE_FST=1",
     "-DVM_TRACE_VCD=0",
-    "-DVM_COVERAGE=0",
     "-DVM_SC=0",
 ];
+
+/// Flags of models that count their own code and its signals, however wide these are.
+const COVERAGE_FLAGS: &[&str] =
+    &["--coverage-line", "--coverage-toggle", "--coverage-max-width", "65536"];
 
 /// What makes models fast, and what makes builds fast.
 const OPTIMISED: &str = "-O3";
 const UNOPTIMISED: &str = "-O0";
+const COVERING: &str = "-O1";
 
 /// Sources of Verilator's runtime that every model is linked with.
-const RUNTIME: [&str; 3] = ["verilated", "verilated_threads", "verilated_fst_c"];
+const RUNTIME: [&str; 4] = ["verilated", "verilated_threads", "verilated_fst_c", "verilated_cov"];
 
 /// What is to be built.
 #[derive(Clone, Copy, Debug)]
@@ -150,6 +156,7 @@ pub struct Builder {
     tools: Toolchain,
     cache: PathBuf,
     optimisation: &'static str,
+    coverage: Option<Arc<Collector>>,
     progress: Callback,
 }
 
@@ -160,12 +167,20 @@ impl Builder {
     /// A builder that keeps its models in the folder `cache`, created when needed.
     pub fn new(tools: Toolchain, cache: impl Into<PathBuf>) -> Builder {
         let (cache, progress) = (cache.into(), Box::new(|_: Progress<'_>| ()));
-        Builder { tools, cache, optimisation: OPTIMISED, progress }
+        Builder { tools, cache, optimisation: OPTIMISED, coverage: None, progress }
     }
 
     /// Builds two to six times as fast what then runs a tenth as fast: for models that are run once.
     pub fn unoptimised(mut self) -> Builder {
         self.optimisation = UNOPTIMISED;
+        self
+    }
+
+    /// Builds models that count what is run of their code; the counts are added up in `collector`.
+    /// They are large: more than a little optimisation costs more time than it spares.
+    pub fn covering(mut self, collector: Arc<Collector>) -> Builder {
+        self.optimisation = COVERING;
+        self.coverage = Some(collector);
         self
     }
 
@@ -203,7 +218,11 @@ impl Builder {
                 (self.progress)(Progress::Built(module, start.elapsed()));
             }
         }
-        Ok(Library::load(&object, &key, spec.interface, spec.probes, layout)?)
+        let library = Library::load(&object, &key, spec.interface, spec.probes, layout)?;
+        Ok(match &self.coverage {
+            Some(collector) => library.covering(collector.clone()),
+            None => library,
+        })
     }
 
     /// The objects of Verilator's runtime, compiled once per compiler and flags.
@@ -248,9 +267,27 @@ impl Builder {
     fn compiler(&self, folder: &Path) -> Command {
         let mut command = self.tools.command(&self.tools.gxx);
         command.current_dir(folder).arg(self.optimisation).args(GXX_FLAGS);
-        command.args(["-include", "print.h"]);
+        command.arg(self.coverage_macro()).args(["-include", "print.h"]);
         command.arg("-I").arg(&self.tools.include).arg("-I").arg(self.tools.include.join("vltstd"));
         command
+    }
+
+    /// Flags of the translation beside those of every one.
+    fn coverage_flags(&self) -> &'static [&'static str] {
+        if self.coverage.is_some() {
+            COVERAGE_FLAGS
+        } else {
+            &[]
+        }
+    }
+
+    /// How the runtime is told of them.
+    fn coverage_macro(&self) -> &'static str {
+        if self.coverage.is_some() {
+            "-DVM_COVERAGE=1"
+        } else {
+            "-DVM_COVERAGE=0"
+        }
     }
 
     /// A hash of the tools and their flags.
@@ -260,7 +297,9 @@ impl Builder {
         for tool in tools {
             entry(&mut hash, tool.program.as_os_str().as_encoded_bytes(), tool.text.as_bytes());
         }
-        for flag in VERILATOR_FLAGS.iter().chain(GXX_FLAGS).chain([&self.optimisation]) {
+        let own = [self.optimisation, self.coverage_macro()];
+        for flag in VERILATOR_FLAGS.iter().chain(GXX_FLAGS).chain(self.coverage_flags()).chain(&own)
+        {
             entry(&mut hash, b"flag", flag.as_bytes());
         }
         entry(&mut hash, b"print", shim::PRINT_HEADER.as_bytes());
@@ -306,7 +345,7 @@ impl Job<'_> {
 
         let tools = &self.builder.tools;
         let mut command = tools.command(&tools.verilator);
-        command.current_dir(temporary).args(VERILATOR_FLAGS);
+        command.current_dir(temporary).args(VERILATOR_FLAGS).args(self.builder.coverage_flags());
         command.args(["--Mdir", "cpp", "--top-module", module]);
         for (name, value) in &self.spec.interface.parameters {
             command.arg(format!("-G{name}={value}"));

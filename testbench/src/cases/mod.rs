@@ -40,6 +40,8 @@ pub struct Case {
     pub probes: Vec<(Probe, Table)>,
     /// For a system: its frame buffers before, and what they must hold after.
     pub memory: Option<Box<[Frames; 2]>>,
+    /// To be run with every pair of stall patterns.
+    pub all_stalls: bool,
 }
 
 impl Case {
@@ -65,6 +67,7 @@ impl Case {
             flags: vec![0; interface.flags.len()],
             probes: Vec::new(),
             memory: None,
+            all_stalls: false,
         }
     }
 

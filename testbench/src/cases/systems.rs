@@ -11,7 +11,7 @@ use wheatstone_golden::pipeline::{Edges, Mode, Op, Planes, PrimaryBeat, Setup, W
 use wheatstone_golden::primary::Sink;
 use wheatstone_golden::random::{Class, Triangles};
 use wheatstone_golden::record::{Recording, Tape};
-use wheatstone_golden::setup::{Arrangement, Eyes, Options, Polygon, Sampling, Specular};
+use wheatstone_golden::setup::{Arrangement, Eyes, Options, Polygon, Sampling, Specular, Vertex};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::{probes, Target};
 use wheatstone_golden::texture::Lookup;
@@ -303,9 +303,97 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let mut tape = Tape::new(&turned, minimal, false);
     turned.run(minimal, tape.sink());
     let turned = whole(target, &turned, "one display, rotated", tape);
+    let mut cleared = Case { name: "bad setups, error cleared".into(), ..spoiled.clone() };
+    cleared.statics[ERROR_CLEAR] = 1;
+    cleared.flags = vec![0];
+
     // Inside the stereo pipeline there are no beats but the primary's own.
     let stray = Some(stray).filter(|_| !stereo);
-    [spoiled].into_iter().chain(stray).chain([crowded, turned]).collect()
+    // So that every bit of width and height is 0 in one and 1 in another.
+    let largest = [[f.max_size, 12], [f.max_size - 1, 19]].into_iter();
+    let largest = largest.flat_map(|[a, b]| [[a, b], [b, a]]);
+    let largest = largest.map(|size| large(target, config, size));
+    let every = (target == Target::Hybrid).then(|| every_kind(config));
+    let rest = [crowded, turned, cleared].into_iter().chain(largest).chain(every);
+    [spoiled].into_iter().chain(stray).chain(rest).collect()
+}
+
+/// Place of `error_clear` among the static inputs of a system.
+const ERROR_CLEAR: usize = 3;
+
+/// Small polygons all over a view that is as wide or as high as it can be.
+fn large(target: Target, config: &Config, size: [u32; 2]) -> Case {
+    let f = Formats::new(config);
+    let mut triangles = Triangles::new(8, f, size[0], size[1]);
+    let polygons: Vec<Polygon> =
+        (0..200).map(|id| Polygon { id, ..triangles.triangle(Class::Px2) }).collect();
+    let job = job(config, Options::new(config), size, &polygons);
+    let minimal = target == Target::Minimal;
+    let mut tape = Tape::new(&job, minimal, false);
+    job.run(minimal, tape.sink());
+    whole(target, &job, &format!("a view of {} × {}", size[0], size[1]), tape)
+}
+
+/// Polygons of every mode and, where a secondary is derived, every class of the mapping ratio with every
+/// triple of edge signs.
+fn every_kind(config: &Config) -> Case {
+    let f = Formats::new(config);
+    let mut polygons = Vec::new();
+    for eye in Eye::BOTH {
+        for stretch in [1.0, 1.6, 5.0, 20.0] {
+            for heights in HEIGHTS {
+                let both = [false, true].map(|turn| stretched(eye, stretch, heights, turn, &f));
+                polygons.extend(both);
+            }
+        }
+        let alone = stretched(eye, 1.6, HEIGHTS[0], false, &f);
+        polygons.push(Polygon { eyes: Eyes::One(eye), ..alone });
+    }
+    for (id, polygon) in (0..).zip(&mut polygons) {
+        polygon.id = id;
+    }
+    let job =
+        job(config, Options { cost_rule: false, ..Options::new(config) }, [200, 8], &polygons);
+    let mut tape = Tape::new(&job, false, false);
+    job.run(false, tape.sink());
+    let name = "every mode, ratio and edge sign";
+    Case { all_stalls: true, ..whole(Target::Hybrid, &job, name, tape) }
+}
+
+/// Heights of three corners in half pixels: in every order, two of them equal or none.
+const HEIGHTS: [[i32; 3]; 12] = [
+    [0, 2, 4],
+    [0, 4, 2],
+    [2, 0, 4],
+    [2, 4, 0],
+    [4, 0, 2],
+    [4, 2, 0],
+    [0, 3, 3],
+    [3, 0, 3],
+    [3, 3, 0],
+    [3, 0, 0],
+    [0, 3, 0],
+    [0, 0, 3],
+];
+
+/// A triangle with corners at these heights, in either winding, whose pixels `eye` sees stretched by a
+/// factor.
+fn stretched(eye: Eye, stretch: f64, heights: [i32; 3], turn: bool, f: &Formats) -> Polygon {
+    let pixel = 1 << f.subpixel_bits;
+    // With ratio 1 the left eye is primary unless its view is narrower, by so little that it is still 1.
+    let same = stretch == 1.0;
+    let (width, less) = if same { (160, i32::from(eye == Eye::Right)) } else { (6, 0) };
+    // The third corner is above or below one of the others.
+    let far = [false, true, heights[2] == heights[0]];
+    let vertices = (0..3).map(|n| {
+        let across = if far[n] != turn { width * pixel } else { 0 };
+        let mut x = [2 * pixel + if across > 0 { across - less } else { 0 }; 2];
+        x[eye as usize] = 2 * pixel + (f64::from(across) * stretch) as i32;
+        let colour = [Rgba([40 * n as u8, 200, 90, 255]); 2];
+        let y = [pixel + heights[n] * pixel / 2; 2];
+        Vertex { x, y, depth: 1000, colour, ..Vertex::default() }
+    });
+    Polygon { vertices: vertices.collect(), ..Polygon::default() }
 }
 
 /// Passes polygons on, every second one with its setup spoilt, or put just inside what is allowed.

@@ -21,10 +21,12 @@ macro_rules! tell {
 mod baseline;
 mod compare;
 mod cosim;
+mod cover;
 mod generate;
 mod info;
 mod prove;
 mod render;
+mod replay;
 mod reproduce;
 mod rig;
 mod synth;
@@ -32,13 +34,16 @@ mod vectors;
 mod waves;
 
 use crate::baseline::BaselineError;
+use crate::cover::CoverError;
 use crate::generated::GenerateError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
+use crate::replay::ReplayError;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::RecordError;
 use crate::synth::SynthError;
 use crate::tools::{ToolError, Toolchain};
+use crate::verification::{self, Record, VerificationError};
 use crate::{BuildError, Builder};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -94,6 +99,10 @@ enum Command {
     Vectors(vectors::VectorsArgs),
     /// Verify a vector pack, or a folder of them
     Check(vectors::CheckArgs),
+    /// Replay vector packs in Icarus, in cocotb and on gate-level netlists
+    Replay(replay::ReplayArgs),
+    /// Count which lines, bits and combinations of the stimulus the regression covers
+    Cover(cover::CoverArgs),
     /// Write waveforms of a target, with a view for GTKWave and Surfer
     Waves(waves::WavesArgs),
     /// Draw a scene in stereo with the golden model
@@ -216,6 +225,12 @@ enum Failure {
     #[error(transparent)]
     Synth(#[from] SynthError),
     #[error(transparent)]
+    Replay(#[from] ReplayError),
+    #[error(transparent)]
+    Cover(#[from] CoverError),
+    #[error(transparent)]
+    Verification(#[from] VerificationError),
+    #[error(transparent)]
     Record(#[from] RecordError),
     #[error(transparent)]
     Baseline(#[from] BaselineError),
@@ -228,7 +243,9 @@ impl Failure {
         match self {
             Failure::Tool(_)
             | Failure::Synth(SynthError::Tool(_))
+            | Failure::Replay(ReplayError::Tool(_) | ReplayError::Synth(SynthError::Tool(_)))
             | Failure::Regression(RegressionError::Build(BuildError::Tool(_)))
+            | Failure::Cover(CoverError::Regression(RegressionError::Build(BuildError::Tool(_))))
             | Failure::Baseline(BaselineError::Regression(RegressionError::Build(
                 BuildError::Tool(_),
             ))) => MISSING_TOOL,
@@ -245,6 +262,8 @@ pub fn main() -> ExitCode {
         Command::Cosim(args) => cosim::run(args),
         Command::Vectors(args) => vectors::write(args),
         Command::Check(args) => vectors::check(args),
+        Command::Replay(args) => replay::run(args),
+        Command::Cover(args) => cover::run(args),
         Command::Waves(args) => waves::run(args),
         Command::Render(args) => render::run(args),
         Command::Compare(args) => compare::run(args),
@@ -379,11 +398,6 @@ fn rtl_folder(named: &Option<PathBuf>) -> Result<PathBuf, Failure> {
     })
 }
 
-/// The folder of the workspace, which there must be.
-fn root() -> Result<PathBuf, Failure> {
-    workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
-}
-
 /// The file by which a workspace is known.
 const MARK: &str = "rtl/sam_formats.vh";
 
@@ -393,6 +407,25 @@ pub(crate) fn workspace() -> Option<PathBuf> {
     let source = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders = here.ancestors().chain(source.ancestors());
     folders.find(|folder| folder.join(MARK).exists()).map(Path::to_path_buf)
+}
+
+/// The folder of the workspace; an error if there is none.
+fn root() -> Result<PathBuf, Failure> {
+    workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
+}
+
+/// Changes the record of coverage and replay.
+fn update_record(change: impl FnOnce(&mut Record)) -> Result<(), Failure> {
+    let root = root()?;
+    // The first one has nothing before it.
+    let mut record = match root.join(verification::FILE).exists() {
+        true => Record::read(&root)?,
+        false => Record::default(),
+    };
+    change(&mut record);
+    record.write(&root)?;
+    say!("{}: written; now run: wheatstone generate", verification::FILE);
+    Ok(())
 }
 
 /// The job that draws a scene's polygons.

@@ -15,6 +15,8 @@ pub struct Checked {
     pub folder: PathBuf,
     /// What it says of itself.
     pub manifest: Manifest,
+    /// The interface of its target.
+    pub interface: Interface,
 }
 
 /// Verifies the pack in a folder, or all packs in the folders of a folder.
@@ -219,7 +221,7 @@ fn check_one(folder: &Path) -> Result<Checked, PackError> {
         checker.port(port, stream)?;
     }
     checker.bench(&manifest, &interface)?;
-    Ok(Checked { folder: folder.into(), manifest })
+    Ok(Checked { folder: folder.into(), manifest, interface })
 }
 
 #[cfg(test)]

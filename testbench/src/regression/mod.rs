@@ -177,6 +177,8 @@ pub enum Event<'a> {
     Planned(usize),
     /// A case begins.
     Begin(Target, &'a str),
+    /// A case is run with these stalls.
+    Run(&'a Case, Stalls),
     /// A case failed; waveforms come next.
     Mismatch(&'a Failure),
     /// A case has ended.
@@ -372,6 +374,7 @@ fn try_case(
     beats: Option<u64>,
     setting: &Setting,
 ) -> Result<(), RegressionError> {
+    (ground.tell)(Event::Run(case, setting.stalls));
     let start = Instant::now();
     let ran = run_case(setting, case)?;
     entry.add(&ran, case.beats(), start.elapsed());
@@ -397,6 +400,10 @@ fn directed(ground: &Ground, case: &Case) -> Result<Entry, RegressionError> {
         Stalls { idle: Pattern::None, back_pressure: Pattern::Bursts, seed },
         Stalls { idle: Pattern::Gaps, back_pressure: Pattern::Random50, seed },
     ];
+    let crossed = match case.all_stalls {
+        true => Stalls::crossed(seed).collect(),
+        false => crossed.to_vec(),
+    };
     for stalls in crossed {
         try_case(ground, &mut entry, case, beats, &ground.setting(seed, stalls))?;
         if !entry.passed() {

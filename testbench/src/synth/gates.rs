@@ -31,7 +31,7 @@ const PRIMITIVE: &str = include_str!("../../../synth/primitive.lib");
 /// Gates in both libraries.
 pub(super) fn measure(design: &Design<'_>) -> Result<Figures, SynthError> {
     let yosys = YOSYS.find()?;
-    let path = tools::osu035()?;
+    let path = tools::osu035("lib")?;
     let osu035 = std::fs::read_to_string(&path)
         .map_err(|source| SynthError::Read { path: path.clone(), source })?;
     let texts = [&osu035, PRIMITIVE];

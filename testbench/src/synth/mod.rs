@@ -6,11 +6,15 @@
 
 mod fpga;
 mod gates;
+mod netlist;
 pub mod record;
 
 pub use crate::flow::FlowError as SynthError;
+pub use netlist::Cells;
+
 use crate::flow::{self, Folder};
 use crate::sources::{self, Sources};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -113,14 +117,24 @@ impl Synthesiser {
         tech: Tech,
     ) -> Result<Figures, SynthError> {
         let interface = target.interface(config);
-        let sources = sources::read(&self.rtl, interface.module)
-            .map_err(|e| SynthError::Read { path: e.path, source: e.source })?;
+        let sources = self.sources(&interface)?;
         let design = Design { interface: &interface, sources: &sources, cache: &self.cache };
         match tech {
             Tech::Gates => gates::measure(&design),
             Tech::Ice40 => fpga::measure(&design, &fpga::ICE40),
             Tech::Ecp5 => fpga::measure(&design, &fpga::ECP5),
         }
+    }
+
+    /// The gate-level netlist of a module with the parameters of its interface, as Verilog.
+    pub fn netlist(&self, interface: &Interface, cells: Cells) -> Result<String, SynthError> {
+        let sources = self.sources(interface)?;
+        netlist::make(&Design { interface, sources: &sources, cache: &self.cache }, cells)
+    }
+
+    fn sources(&self, interface: &Interface) -> Result<Sources, SynthError> {
+        sources::read(&self.rtl, interface.module)
+            .map_err(|e| SynthError::Read { path: e.path, source: e.source })
     }
 }
 
@@ -143,11 +157,11 @@ impl Design<'_> {
 
     /// What `measure` finds, kept under a hash of the sources and of `inputs`: everything else that
     /// the result depends on.
-    fn cached(
+    fn cached<T: Serialize + DeserializeOwned>(
         &self,
         inputs: &[&[u8]],
-        measure: impl FnOnce(&Folder) -> Result<Figures, SynthError>,
-    ) -> Result<Figures, SynthError> {
+        measure: impl FnOnce(&Folder) -> Result<T, SynthError>,
+    ) -> Result<T, SynthError> {
         flow::cached(self.cache, self.module(), self.sources, inputs, measure)
     }
 }

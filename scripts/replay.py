@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+"""Replays vector packs in cocotb on Icarus Verilog: Python alone, no Rust and no bench in Verilog.
+
+    python scripts/replay.py PACK... [--rtl rtl] [--stall 0]
+
+A pack is a folder that `wheatstone vectors` wrote; docs/vectors.md says what is in it. Every input beat
+is offered until it is taken, every output beat is compared in every bit, on clocks chosen at random.
+Prints the CRC of every output stream and PASS or FAIL; exit status 0 if all packs pass, 1 if not.
+"""
+
+import argparse
+import json
+import os
+import random
+import sys
+import tempfile
+import zlib
+from pathlib import Path
+
+import cocotb
+from cocotb.clock import Clock
+from cocotb.triggers import FallingEdge, RisingEdge
+from cocotb_tools.runner import get_results, get_runner
+
+QUIET = 64  # clocks after the last beat, on which none may come
+HANGS = 2_000  # clocks without a beat
+SHOWN = 10  # differences
+MANY = 1_000  # differences: the module may never end
+
+
+class Stream:
+    """A stream of the module, with its beats and the ports of their fields."""
+
+    def __init__(self, dut, pack, port):
+        self.name = port["name"]
+        data, size = (pack / port["bin"]["file"]).read_bytes(), port["bytes"]
+        self.beats = [int.from_bytes(data[n : n + size], "little") for n in range(0, len(data), size)]
+        self.bytes, self.crc, self.answers = size, port["crc32"], port.get("answers")
+        self.input = port["direction"] == "input"
+        own, back = ("i", "o") if self.input else ("o", "i")
+        self.valid = getattr(dut, f"{self.name}_valid_{own}")
+        self.ready = getattr(dut, f"{self.name}_ready_{back}")
+        self.fields = [
+            (getattr(dut, f"{self.name}_{field['name']}_{own}"), field["lsb"], field["bits"])
+            for field in port["fields"]
+        ]
+        self.done = 0  # beats taken
+        self.on = False  # offered, or ready
+        self.taken = bytearray()  # of an output, as in the .bin file
+
+    def drive(self, may, rng):
+        """Between two rising edges: begins to offer a beat, or is ready, where it `may`."""
+        if not self.input:
+            self.on = may
+            self.ready.value = int(may)
+        elif not self.on:
+            self.on = may and self.done < len(self.beats)
+            self.valid.value = int(self.on)
+            for port, lsb, bits in self.fields:
+                # Without a beat anything: the module must not look.
+                beat = self.beats[self.done] >> lsb if self.on else rng.getrandbits(bits)
+                port.value = beat & ((1 << bits) - 1)
+
+    def sample(self):
+        """At a rising edge: whether a beat is taken."""
+        if not self.on or not int((self.ready if self.input else self.valid).value):
+            return False
+        if self.input:
+            self.on = False
+        self.done += 1
+        return True
+
+    def difference(self):
+        """What is wrong with the output beat just taken."""
+        try:
+            beat = sum(int(port.value) << lsb for port, lsb, _ in self.fields)
+        except ValueError:
+            beat = None  # some bit is unknown
+        expected = self.beats[self.done - 1] if self.done <= len(self.beats) else None
+        self.taken += (beat or 0).to_bytes(self.bytes, "little")
+        if beat is not None and beat == expected:
+            return None
+        shown = ["unknown" if beat is None else f"{beat:x}", "none" if expected is None else f"{expected:x}"]
+        return f"{self.name} beat {self.done - 1}: {shown[0]}, expected {shown[1]}"
+
+
+async def reset(dut, streams, statics):
+    """Sets the static inputs and holds the reset for some clocks."""
+    for static in statics:
+        getattr(dut, f"{static['name']}_i").value = static["value"]
+    for stream in streams:
+        stream.drive(False, random)
+    dut.rst_i.value = 1
+    for _ in range(4):
+        await FallingEdge(dut.clk_i)
+    dut.rst_i.value = 0
+
+
+async def run(dut, streams, may):
+    """Runs until all beats have passed, or nothing moves; returns the differences."""
+    by_name, faults, idle = {stream.name: stream for stream in streams}, [], 0
+    done = False
+    while idle <= (QUIET if done else HANGS) and len(faults) <= MANY:
+        for stream in streams:
+            # A response waits for its request.
+            asked = not stream.answers or stream.done < by_name[stream.answers].done
+            stream.drive(asked and may(), random)
+        await RisingEdge(dut.clk_i)
+        moved = [stream for stream in streams if stream.sample()]
+        faults += filter(None, (stream.difference() for stream in moved if not stream.input))
+        idle = 0 if moved else idle + 1
+        done = all(stream.done >= len(stream.beats) for stream in streams)
+        await FallingEdge(dut.clk_i)
+    hangs = [f"no beat for {idle} clocks, streams unfinished"] if idle > HANGS else []
+    return faults[:SHOWN] + hangs + faults[SHOWN:]
+
+
+@cocotb.test()
+async def replay(dut):
+    """Replays the pack that the environment names."""
+    pack, stall = Path(os.environ["PACK"]), int(os.environ["STALL"])
+    manifest = json.loads((pack / "manifest.json").read_text())
+    random.seed(manifest["seed"])
+    streams = [Stream(dut, pack, port) for port in manifest["ports"]]
+    cocotb.start_soon(Clock(dut.clk_i, 10, "ns").start())
+    await reset(dut, streams, manifest["statics"])
+    faults = await run(dut, streams, lambda: not stall or random.random() < 0.75)
+    for flag in manifest["flags"]:
+        found = getattr(dut, f"{flag['name']}_o").value
+        if str(int(found)) != str(flag["value"]):
+            faults.append(f"flag {flag['name']}: {found}, expected {flag['value']}")
+    for line in faults[: SHOWN + 1]:
+        print(line)
+    for stream in streams:
+        if not stream.input:
+            crc, count = f"{zlib.crc32(stream.taken):08x}", len(stream.beats)
+            print(f"crc {stream.name} {crc}, expected {stream.crc}, {stream.done} of {count} beats")
+            if crc != stream.crc and not faults:
+                faults.append("crc")
+    print(f"FAIL ({len(faults)} differences)" if faults else "PASS", flush=True)
+    assert not faults
+
+
+def simulate(pack, rtl, stall):
+    """Compiles the pack's module and runs the test above in it; returns whether it passed."""
+    manifest = json.loads((pack / "manifest.json").read_text())
+    with tempfile.TemporaryDirectory() as build:
+        common = {"hdl_toplevel": manifest["module"], "build_dir": build}
+        log = Path(build) / "log"
+        runner = get_runner("icarus")
+        runner.build(
+            sources=sorted(rtl.glob("*.v")),
+            includes=[pack],
+            parameters={p["name"]: p["value"] for p in manifest["parameters"]},
+            build_args=["-g2005"],
+            timescale=("1ns", "1ps"),
+            log_file=log,
+            **common,
+        )
+        results = runner.test(
+            test_module="replay",
+            results_xml=str(Path(build) / "results.xml"),
+            extra_env={"PACK": str(pack), "STALL": str(stall), "COCOTB_LOG_LEVEL": "ERROR"},
+            log_file=log,
+            **common,
+        )
+        said = log.read_text().splitlines()
+        verdicts = [line for line in said if line.startswith(("PASS", "FAIL ("))]
+        # What the simulator says besides is of interest only if there is no verdict.
+        print("\n".join([s for s in said if is_ours(s)] if verdicts else said), flush=True)
+        tests, failures = get_results(results)
+        return tests == 1 and failures == 0 and verdicts == ["PASS"]
+
+
+def is_ours(line):
+    """Whether the test above printed the line."""
+    return line.startswith(("crc ", "flag ", "no beat ", "PASS", "FAIL (")) or ", expected " in line
+
+
+def main():
+    """Replays the packs of the command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("packs", nargs="+", type=Path, metavar="PACK")
+    parser.add_argument("--rtl", type=Path, default=Path("rtl"), help="folder of the Verilog")
+    parser.add_argument("--stall", type=int, default=1, help="0: offer and take on every clock")
+    args = parser.parse_args()
+    passed = [simulate(pack.resolve(), args.rtl.resolve(), args.stall) for pack in args.packs]
+    sys.exit(0 if all(passed) else 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,140 @@
+//! `wheatstone cover`.
+
+use super::*;
+use crate::cover::{self, Counts, Report, Waiver};
+use crate::regression::{Event, Plan, Waves};
+use std::fs;
+use wheatstone_golden::picture::write_file;
+
+/// Empty bins and missing points that are named on the terminal.
+const SHOWN: usize = 40;
+
+#[derive(Debug, Args)]
+pub(super) struct CoverArgs {
+    /// Units and systems (see `wheatstone list`); none means all, and that everything must be covered
+    #[arg(value_name = "TARGET", value_parser = parse_target)]
+    targets: Vec<Target>,
+    /// Random beats of each target in each configuration
+    #[arg(long, default_value_t = cover::BEATS, value_parser = clap::value_parser!(u64).range(1..))]
+    beats: u64,
+    /// Seed of random beats and stalls
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Write a JSON report
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write what is covered into the record; `wheatstone generate` then renews the tables
+    #[arg(long, conflicts_with = "targets")]
+    record: bool,
+    /// Write every Verilog file with its counts to this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Folder of the Verilog [default: rtl of this workspace]
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
+    let rtl = rtl_folder(&args.rtl)?;
+    let waivers = waivers()?;
+    let plans = plans(args, &rtl)?;
+    let spinner = Spinner::new();
+    let (counts, bins) = cover::measure(builder(is_terminal())?, &plans, &|event| {
+        if let Event::Begin(target, case) = event {
+            spinner.tell(target.name(), case);
+        }
+    })?;
+    drop(spinner);
+    let whole = args.targets.is_empty();
+    let mut report = Report::new(&counts, &waivers);
+    if !whole {
+        // What other targets or configurations would cover is not missing here.
+        report.stale.clear();
+    }
+    let bins = whole.then_some(&bins);
+    say!("{}", cover::table(&report, bins));
+    let command = std::env::args().collect::<Vec<_>>().join(" ");
+    if let Some(file) = &args.json {
+        write_file(file, cover::json(&report, bins, &command).as_bytes())?;
+    }
+    if let Some(out) = &args.out {
+        annotate(out, &rtl, &counts, &report)?;
+    }
+    if let (true, Some(bins)) = (args.record, bins) {
+        update_record(|record| record.cover(&report, bins))?;
+    }
+    Ok(verdict(&report, bins))
+}
+
+/// The list of the workspace; without one nothing is waived.
+fn waivers() -> Result<Vec<Waiver>, Failure> {
+    let Some(file) = workspace().map(|root| root.join(cover::WAIVERS)) else {
+        return Ok(Vec::new());
+    };
+    let text = fs::read_to_string(&file)
+        .map_err(|error| Failure::Input(format!("{}: {error}", file.display())))?;
+    Ok(Waiver::parse(&text).map_err(cover::CoverError::from)?)
+}
+
+/// One plan a configuration.
+fn plans(args: &CoverArgs, rtl: &Path) -> Result<Vec<Plan<'static>>, Failure> {
+    let targets = match &args.targets[..] {
+        [] => Target::ALL.to_vec(),
+        some => some.to_vec(),
+    };
+    let plan = |(name, parameters): (&str, &[&str])| {
+        Ok(Plan {
+            targets: targets.clone(),
+            settings: Settings::new(name, parameters)?,
+            program: "wheatstone".into(),
+            words: Vec::new(),
+            case: None,
+            scenes: Vec::new(),
+            scenes_only: false,
+            seed: args.seed,
+            beats: Some(args.beats),
+            jobs: std::thread::available_parallelism().map_or(1, usize::from),
+            waves: Waves::Never,
+            rtl: rtl.to_owned(),
+            out: output_folder("cover"),
+        })
+    };
+    cover::CONFIGURATIONS.into_iter().map(plan).collect()
+}
+
+/// Writes every file with its counts.
+fn annotate(out: &Path, rtl: &Path, counts: &Counts, report: &Report) -> Result<(), Failure> {
+    fs::create_dir_all(out).map_err(|source| WriteError { file: out.to_owned(), source })?;
+    for name in report.files.keys() {
+        let source = rtl.join(name);
+        let text = fs::read_to_string(&source)
+            .map_err(|error| Failure::Input(format!("{}: {error}", source.display())))?;
+        let file = out.join(format!("{name}.txt"));
+        write_file(&file, cover::annotated(name, &text, counts, report).as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Tells what is missing; of some targets alone much may be.
+fn verdict(report: &Report, bins: Option<&cover::Bins>) -> u8 {
+    let missing = report
+        .missing
+        .iter()
+        .map(|p| format!("missing {} line {}: {} {}", p.file, p.line, p.kind.name(), p.name));
+    let empty = bins.into_iter().flat_map(|bins| bins.empty());
+    let empty = empty.map(|bin| format!("empty bin: {bin}"));
+    let stale = report.stale.iter().map(|w| {
+        let kind = w.kind.name();
+        format!("{}: nothing needs the waiver {} {kind} {}", cover::WAIVERS, w.file, w.name)
+    });
+    let faults: Vec<String> = missing.chain(empty).chain(stale).collect();
+    if faults.is_empty() {
+        return OK;
+    }
+    say!("");
+    faults.iter().take(SHOWN).for_each(|fault| say!("{fault}"));
+    if faults.len() > SHOWN {
+        say!("and {} more, see --json FILE", faults.len() - SHOWN);
+    }
+    MISMATCH
+}

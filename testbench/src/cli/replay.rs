@@ -1,0 +1,229 @@
+//! `wheatstone replay`.
+
+use super::*;
+use crate::cases;
+use crate::pack::{self, Checked};
+use crate::regression::counted;
+use crate::replay::{ReplayError, Replayed, Replayer, Way};
+use crate::synth::Synthesiser;
+use crate::verification::Replay;
+use rayon::prelude::*;
+use wheatstone_golden::picture::write_file;
+
+/// Random beats of a pack: what a netlist of the largest system takes in a minute.
+const BEATS: u64 = 1_000;
+
+#[derive(Debug, Args)]
+pub(super) struct ReplayArgs {
+    /// Units and systems (see `wheatstone list`); none means all
+    #[arg(value_name = "TARGET", value_parser = parse_target)]
+    targets: Vec<Target>,
+    /// Replay the packs in this folder [default: packs of random beats, made for the occasion]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["config", "beats", "seed"])]
+    packs: Option<PathBuf>,
+    /// How to replay, several with commas
+    #[arg(
+        long = "with",
+        value_enum,
+        value_delimiter = ',',
+        value_name = "WAY",
+        default_value = "icarus,cocotb,gates,osu035"
+    )]
+    ways: Vec<WayChoice>,
+    /// Named sets of build parameters, several with commas
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "default,paper",
+        value_name = "default|paper|full"
+    )]
+    config: Vec<String>,
+    /// Number of random beats of each pack
+    #[arg(long, default_value_t = BEATS, value_parser = clap::value_parser!(u64).range(1..))]
+    beats: u64,
+    /// Seed of random beats
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Write a JSON report
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write what was equal into the record; `wheatstone generate` then renews the tables
+    #[arg(long, conflicts_with = "packs")]
+    record: bool,
+    /// Folder of the Verilog [default: rtl of this workspace]
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WayChoice {
+    /// The Verilog in Icarus
+    Icarus,
+    /// The Verilog in Icarus, driven from Python (scripts/replay.py)
+    Cocotb,
+    /// The netlist of gates in Icarus
+    Gates,
+    /// The netlist of OSU 0.35 µm standard cells in Icarus
+    Osu035,
+}
+
+impl WayChoice {
+    fn way(self) -> Way {
+        match self {
+            WayChoice::Icarus => Way::Icarus,
+            WayChoice::Cocotb => Way::Cocotb,
+            WayChoice::Gates => Way::Gates,
+            WayChoice::Osu035 => Way::Osu035,
+        }
+    }
+}
+
+/// A pack and how it is called in the table.
+struct Named {
+    label: String,
+    /// The configuration it was made in, if it was made here.
+    config: String,
+    pack: Checked,
+}
+
+impl Named {
+    fn beats(&self) -> u64 {
+        self.pack.manifest.ports.iter().map(|port| port.beats).sum()
+    }
+
+    /// Its line in the record.
+    fn replay(&self, way: Way) -> Replay {
+        let (target, config) = (self.pack.manifest.target.clone(), self.config.clone());
+        Replay { target, config, way: way.name().to_owned(), beats: self.beats() }
+    }
+}
+
+pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
+    let rtl = rtl_folder(&args.rtl)?;
+    let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
+    let made =
+        tempfile::tempdir().map_err(|source| WriteError { file: std::env::temp_dir(), source })?;
+    let packs = match &args.packs {
+        Some(folder) => found(folder, &args.targets)?,
+        None => make(args, &rtl, made.path())?,
+    };
+    let replayer = Replayer { synthesiser: Synthesiser { rtl, cache } };
+    let mut tasks: Vec<(&Named, Way)> = packs
+        .iter()
+        .flat_map(|named| args.ways.iter().map(move |choice| (named, choice.way())))
+        .collect();
+    // The largest first, so that none is left over at the end.
+    tasks.sort_by_key(|(named, _)| {
+        !Target::named(&named.pack.manifest.target).is_some_and(Target::is_system)
+    });
+    let spinner = Spinner::new();
+    let results: Result<Vec<(&Named, Way, Replayed)>, ReplayError> = tasks
+        .par_iter()
+        .with_max_len(1)
+        .map(|&(named, way)| {
+            let replayed = replayer.replay(&named.pack, way)?;
+            let verdict = if replayed.passed { "equal" } else { "MISMATCH" };
+            let what = format!("{verdict} in {:.1} s", replayed.time.as_secs_f64());
+            spinner.tell(&format!("{} {}", named.label, way.name()), &what);
+            Ok((named, way, replayed))
+        })
+        .collect();
+    drop(spinner);
+    let results = results?;
+    print_table(&packs, &args.ways, &results);
+    if let Some(file) = &args.json {
+        write_file(file, json(&results).as_bytes())?;
+    }
+    if args.record {
+        update_record(|record| {
+            results.iter().for_each(|(named, way, replayed)| {
+                record.replay(named.replay(*way), replayed.passed);
+            });
+        })?;
+    }
+    let mut status = OK;
+    for (named, way, replayed) in results.iter().filter(|(.., replayed)| !replayed.passed) {
+        say!("\nMISMATCH {} {}\n{}", named.label, way.name(), replayed.said);
+        status = MISMATCH;
+    }
+    Ok(status)
+}
+
+/// The packs of a folder, of these targets or of all.
+fn found(folder: &Path, targets: &[Target]) -> Result<Vec<Named>, Failure> {
+    let is_wanted = |pack: &Checked| {
+        targets.is_empty() || targets.iter().any(|t| t.name() == pack.manifest.target)
+    };
+    let packs = pack::check(folder)?.into_iter().filter(is_wanted);
+    let packs: Vec<Named> = packs
+        .map(|pack| Named { label: pack.folder.display().to_string(), config: String::new(), pack })
+        .collect();
+    if packs.is_empty() {
+        let names = targets.iter().map(|t| t.name()).collect::<Vec<_>>().join(", ");
+        return Err(Failure::Input(format!("{}: no pack of {names}", folder.display())));
+    }
+    Ok(packs)
+}
+
+/// Packs of random beats.
+fn make(args: &ReplayArgs, rtl: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
+    let targets = match &args.targets[..] {
+        [] => Target::ALL.to_vec(),
+        some => some.to_vec(),
+    };
+    let mut packs = Vec::new();
+    for name in &args.config {
+        let config = Settings::new::<&str>(name, &[])?.config;
+        for &target in &targets {
+            let case = cases::random(target, &config, args.seed, args.beats as usize);
+            let hash = pack::rtl_hash(rtl, target.module())?;
+            let written = pack::write(&case, args.seed, &hash, &out.join(name))?;
+            for pack in pack::check(&written.folder)? {
+                let label = format!("{} {name}", target.name());
+                packs.push(Named { label, config: name.clone(), pack });
+            }
+        }
+    }
+    Ok(packs)
+}
+
+fn print_table(packs: &[Named], ways: &[WayChoice], results: &[(&Named, Way, Replayed)]) {
+    let mut table = comfy_table::Table::new();
+    table.load_preset(comfy_table::presets::NOTHING);
+    let ways: Vec<Way> = ways.iter().map(|choice| choice.way()).collect();
+    let names = ways.iter().map(|way| way.name());
+    table.set_header(["pack", "beats"].into_iter().chain(names));
+    for named in packs {
+        let cell = |way: &Way| {
+            let result = results.iter().find(|(n, w, _)| std::ptr::eq(*n, named) && w == way);
+            result.map_or(String::new(), |(.., replayed)| match replayed.passed {
+                true => format!("equal {:.1} s", replayed.time.as_secs_f64()),
+                false => "MISMATCH".into(),
+            })
+        };
+        let row = [named.label.clone(), named.beats().to_string()];
+        table.add_row(row.into_iter().chain(ways.iter().map(cell)));
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(comfy_table::CellAlignment::Right);
+    }
+    let failed = results.iter().filter(|(.., replayed)| !replayed.passed).count();
+    let replays = counted(results.len() as u64, "replay");
+    say!("{table}\n\n{replays}, mismatches {failed}");
+}
+
+fn json(results: &[(&Named, Way, Replayed)]) -> String {
+    let entry = |(named, way, replayed): &(&Named, Way, Replayed)| {
+        let manifest = &named.pack.manifest;
+        serde_json::json!({
+            "pack": named.label, "target": manifest.target, "with": way.name(),
+            "beats": named.beats(), "passed": replayed.passed,
+            "seconds": replayed.time.as_secs_f64(),
+        })
+    };
+    let content = serde_json::json!({
+        "command": std::env::args().collect::<Vec<_>>().join(" "),
+        "replays": results.iter().map(entry).collect::<Vec<_>>(),
+    });
+    format!("{content:#}\n")
+}

@@ -1,0 +1,222 @@
+//! Vector packs replayed outside the co-simulation: in Icarus, in cocotb, and on gate-level netlists.
+
+use crate::pack::Checked;
+use crate::scratch::Scratch;
+use crate::sources;
+use crate::synth::{Cells, SynthError, Synthesiser};
+use crate::tools::{self, Found, Tool, ToolError, COCOTB, ICARUS, VVP};
+use std::fmt::Write;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+/// How a pack is replayed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// The Verilog in Icarus, by the bench in the pack.
+    Icarus,
+    /// The Verilog in Icarus, by `scripts/replay.py` in cocotb.
+    Cocotb,
+    /// A netlist of gates and flip-flops in Icarus, by the bench in the pack.
+    Gates,
+    /// A netlist of OSU 0.35 µm standard cells in Icarus, by the bench in the pack.
+    Osu035,
+}
+
+impl Way {
+    /// All of them, in the order of tables.
+    pub const ALL: [Way; 4] = [Way::Icarus, Way::Cocotb, Way::Gates, Way::Osu035];
+
+    /// Name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Way::Icarus => "icarus",
+            Way::Cocotb => "cocotb",
+            Way::Gates => "gates",
+            Way::Osu035 => "osu035",
+        }
+    }
+}
+
+/// What came of a replay.
+#[derive(Clone, Debug)]
+pub struct Replayed {
+    /// Whether every output was equal in every bit.
+    pub passed: bool,
+    /// What the bench said: the first differences, the CRC of every output stream, the verdict.
+    pub said: String,
+    /// Time of compilation and simulation, synthesis left out.
+    pub time: Duration,
+}
+
+/// Why a pack could not be replayed.
+#[derive(Debug, Error)]
+pub enum ReplayError {
+    /// A tool is missing.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+    /// There is no netlist.
+    #[error(transparent)]
+    Synth(#[from] SynthError),
+    /// A file or folder could not be read or written.
+    #[error("{}: {source}", .path.display())]
+    File {
+        /// Which one.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A tool refused what it was given, or gave no verdict.
+    #[error("{tool} failed on {}:\n{said}", .pack.display())]
+    Failed {
+        /// Which tool.
+        tool: &'static str,
+        /// Which pack.
+        pack: PathBuf,
+        /// What it said.
+        said: String,
+    },
+}
+
+impl ReplayError {
+    fn at(path: &Path) -> impl FnOnce(io::Error) -> ReplayError + '_ {
+        move |source| ReplayError::File { path: path.to_owned(), source }
+    }
+}
+
+/// The Python that replays a pack.
+const SCRIPT: &str = include_str!("../../scripts/replay.py");
+
+/// Replays packs.
+#[derive(Debug)]
+pub struct Replayer {
+    /// Makes the netlists; knows the Verilog.
+    pub synthesiser: Synthesiser,
+}
+
+impl Replayer {
+    /// Replays a pack that was found sound.
+    pub fn replay(&self, pack: &Checked, way: Way) -> Result<Replayed, ReplayError> {
+        let cache = &self.synthesiser.cache;
+        fs::create_dir_all(cache).map_err(ReplayError::at(cache))?;
+        let scratch = Scratch::new(cache).map_err(ReplayError::at(cache))?;
+        let run = Run { replayer: self, pack, folder: scratch.path() };
+        match way {
+            Way::Icarus => run.icarus(&[], &self.verilog(pack)?),
+            Way::Cocotb => run.cocotb(),
+            Way::Gates => run.netlist(Cells::Generic),
+            Way::Osu035 => run.netlist(Cells::Osu035),
+        }
+    }
+
+    /// The Verilog files of a pack's module.
+    fn verilog(&self, pack: &Checked) -> Result<Vec<PathBuf>, ReplayError> {
+        let rtl = &self.synthesiser.rtl;
+        let files = sources::read(rtl, &pack.manifest.module)
+            .map_err(|e| ReplayError::File { path: e.path, source: e.source })?;
+        Ok(files.keys().filter(|name| name.ends_with(".v")).map(|name| rtl.join(name)).collect())
+    }
+}
+
+/// One replay in a folder of its own.
+struct Run<'a> {
+    replayer: &'a Replayer,
+    pack: &'a Checked,
+    folder: &'a Path,
+}
+
+impl Run<'_> {
+    /// Compiles the pack's bench with other files and runs it.
+    fn icarus(&self, options: &[&str], files: &[PathBuf]) -> Result<Replayed, ReplayError> {
+        let (iverilog, vvp) = (ICARUS.find()?, VVP.find()?);
+        let bench = self.pack.folder.join("replay.v");
+        let program = self.folder.join("replay.vvp");
+        let start = Instant::now();
+        let mut command = Command::new(&iverilog.program);
+        command.args(["-g2005", "-s", "replay"]).args(options).arg("-I").arg(&self.pack.folder);
+        command.arg("-o").arg(&program).arg(bench).args(files);
+        self.run(&ICARUS, &mut command)?;
+        let said = self.run(&VVP, Command::new(&vvp.program).arg(&program))?;
+        self.verdict(&VVP, said, start)
+    }
+
+    /// The same with a netlist in the module's place.
+    fn netlist(&self, cells: Cells) -> Result<Replayed, ReplayError> {
+        let netlist = self.replayer.synthesiser.netlist(&self.pack.interface, cells)?;
+        let mut files = vec![self.write("netlist.v", &netlist)?];
+        let mut options = vec!["-DNETLIST"];
+        if cells == Cells::Osu035 {
+            files.push(self.write("start.v", &start(&netlist))?);
+            files.push(tools::osu035("v")?);
+            options.extend(["-s", "start"]);
+        }
+        self.icarus(&options, &files)
+    }
+
+    /// Runs the script in the Python that has cocotb.
+    fn cocotb(&self) -> Result<Replayed, ReplayError> {
+        let (Found { program, .. }, _) = (COCOTB.find()?, ICARUS.find()?);
+        let script = self.write("replay.py", SCRIPT)?;
+        let start = Instant::now();
+        let mut command = Command::new(program.with_file_name("python3"));
+        command.arg(script).arg(&self.pack.folder).arg("--rtl");
+        command.arg(&self.replayer.synthesiser.rtl);
+        // A difference is told by the exit status too.
+        let said = command.output().map_err(ReplayError::at(&program))?;
+        self.verdict(&COCOTB, [said.stdout, said.stderr].concat(), start)
+    }
+
+    fn write(&self, name: &str, text: &str) -> Result<PathBuf, ReplayError> {
+        let path = self.folder.join(name);
+        fs::write(&path, text).map_err(ReplayError::at(&path))?;
+        Ok(path)
+    }
+
+    /// Runs a command that must succeed; returns what it said.
+    fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<Vec<u8>, ReplayError> {
+        let program = PathBuf::from(command.get_program());
+        let output = command.output().map_err(ReplayError::at(&program))?;
+        let text = [output.stdout, output.stderr].concat();
+        if output.status.success() {
+            Ok(text)
+        } else {
+            Err(self.failed(tool, &String::from_utf8_lossy(&text)))
+        }
+    }
+
+    /// What the bench's last line says.
+    fn verdict(
+        &self,
+        tool: &'static Tool,
+        said: Vec<u8>,
+        start: Instant,
+    ) -> Result<Replayed, ReplayError> {
+        let said = String::from_utf8_lossy(&said).trim_end().to_owned();
+        let passed = match said.lines().last() {
+            Some("PASS") => true,
+            Some(line) if line.starts_with("FAIL (") => false,
+            _ => return Err(self.failed(tool, &said)),
+        };
+        Ok(Replayed { passed, said, time: start.elapsed() })
+    }
+
+    fn failed(&self, tool: &'static Tool, said: &str) -> ReplayError {
+        let said = said.lines().take(8).collect::<Vec<_>>().join("\n");
+        ReplayError::Failed { tool: tool.program, pack: self.pack.folder.clone(), said }
+    }
+}
+
+/// Puts every flip-flop of a netlist of OSU cells at a random value, as it has after power-up: an
+/// unknown one would spread through gates whose outputs do not depend on it.
+fn start(netlist: &str) -> String {
+    let mut text = String::from("module start;\n  initial begin\n");
+    let cells = netlist.lines().filter_map(|line| line.trim().strip_prefix("DFFPOSX1 "));
+    for name in cells.filter_map(|rest| rest.split(' ').next()) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "    $deposit(replay.dut.{name} .DS0000, $random);");
+    }
+    text + "  end\nendmodule\n"
+}

@@ -1,0 +1,41 @@
+//! Gate-level netlists in Verilog.
+
+use super::{Design, SynthError};
+use crate::tools::{self, YOSYS};
+
+/// What a netlist is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cells {
+    /// Gates and flip-flops in plain Verilog.
+    Generic,
+    /// The OSU 0.35 µm standard cells.
+    Osu035,
+}
+
+/// Synthesises a design into cells; nothing of its hierarchy is left, nor are parameters.
+pub(super) fn make(design: &Design<'_>, cells: Cells) -> Result<String, SynthError> {
+    let yosys = YOSYS.find()?;
+    let library = match cells {
+        Cells::Generic => None,
+        Cells::Osu035 => Some(tools::osu035("lib")?),
+    };
+    let library = library.map_or(Ok(Vec::new()), |path| {
+        std::fs::read(&path).map_err(|source| SynthError::Read { path, source })
+    })?;
+    let map = match cells {
+        // Flip-flops begin at random values, as real ones do: an unknown one would spread through
+        // gates whose outputs do not depend on it.
+        Cells::Generic => "setundef -init -random 1",
+        Cells::Osu035 => "dfflibmap -liberty cells.lib; abc -liberty cells.lib",
+    };
+    let script = format!(
+        "{}synth -flatten -top {}; {map}; opt_clean -purge; write_verilog -noattr netlist.v",
+        design.read_commands(),
+        design.module()
+    );
+    design.cached(&[yosys.text.as_bytes(), script.as_bytes(), &library], |folder| {
+        folder.write("cells.lib", &library)?;
+        folder.run(&YOSYS, folder.command(&yosys).args(["-q", "-p", &script]))?;
+        folder.read("netlist.v")
+    })
+}

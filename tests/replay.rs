@@ -1,0 +1,84 @@
+//! Vector packs replay in cocotb and on gate-level netlists, equal in every bit, and catch bugs there.
+
+use std::path::Path;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::targets::Target;
+use wheatstone_testbench::cases;
+use wheatstone_testbench::pack::{self, Checked};
+use wheatstone_testbench::replay::{Replayed, Replayer, Way};
+use wheatstone_testbench::synth::Synthesiser;
+use wheatstone_tests::*;
+
+/// A pack of random beats in a folder.
+fn pack(target: Target, config: &Config, beats: usize, out: &Path) -> Checked {
+    let case = cases::random(target, config, 5, beats);
+    let hash = pack::rtl_hash(&rtl(), target.module()).expect("the Verilog");
+    let written = pack::write(&case, 5, &hash, out).unwrap_or_else(|error| panic!("{error}"));
+    pack::check(&written.folder).unwrap_or_else(|error| panic!("{error}")).remove(0)
+}
+
+fn replay(pack: &Checked, rtl: &Path, way: Way) -> Replayed {
+    let (rtl, cache) = (rtl.to_owned(), workspace().join(Synthesiser::CACHE));
+    let replayer = Replayer { synthesiser: Synthesiser { rtl, cache } };
+    replayer.replay(pack, way).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn passes(target: Target, config: &Config, beats: usize) {
+    let folder = folder();
+    let pack = pack(target, config, beats, folder.path());
+    for way in Way::ALL {
+        let Replayed { passed, said, .. } = replay(&pack, &rtl(), way);
+        assert!(passed, "{} {}:\n{said}", target.name(), way.name());
+        for port in pack.manifest.ports.iter().filter(|port| port.direction == "output") {
+            let (name, crc, beats) = (&port.name, &port.crc32, port.beats);
+            let line = format!("crc {name} {crc}, expected {crc}, {beats} of {beats} beats");
+            assert!(said.lines().any(|l| l == line), "{}: no “{line}” in:\n{said}", way.name());
+        }
+    }
+}
+
+#[test]
+fn units_replay_in_every_way() {
+    for target in [Target::XInterpolator, Target::Filter, Target::Blend, Target::Redirect] {
+        passes(target, &Config::PAPER, 300);
+    }
+    passes(Target::YInterpolator, &Config::FULL, 300);
+    passes(Target::Filter, &Config::DEFAULT, 300);
+}
+
+#[test]
+fn a_system_replays_in_every_way() {
+    passes(Target::Minimal, &Config::PAPER, 300);
+}
+
+#[test]
+fn every_way_says_fail_on_wrong_verilog() {
+    // A wrong value, a beat too many, and a stream that never ends.
+    for (target, file, find, to) in [
+        (Target::Filter, "sam_filter.v", "(so_many == 0) |", "(so_many != 0) |"),
+        (
+            Target::Sampler,
+            "sam_sampler.v",
+            "beat_valid_i & beat_end_i",
+            "beat_valid_i | beat_end_i",
+        ),
+        (Target::XInterpolator, "sam_x_interpolator.v", "(last_q | beat_valid_i)", "last_q"),
+    ] {
+        let (folder, copy) = (folder(), copy_of_rtl());
+        let pack = pack(target, &Config::DEFAULT, 300, folder.path());
+        plant(copy.path(), file, find, to);
+        for way in Way::ALL {
+            let Replayed { passed, said, .. } = replay(&pack, copy.path(), way);
+            assert!(!passed && said.contains("FAIL ("), "{file} {}:\n{said}", way.name());
+        }
+    }
+}
+
+/// The beats of a response wait for their requests in Python too: the hybrid gives no answer before.
+#[test]
+fn the_hybrid_replays_in_cocotb() {
+    let folder = folder();
+    let pack = pack(Target::Hybrid, &Config::DEFAULT, 1_000, folder.path());
+    let Replayed { passed, said, .. } = replay(&pack, &rtl(), Way::Cocotb);
+    assert!(passed, "{said}");
+}
