@@ -30,7 +30,11 @@ fn every_method_is_measured_and_its_errors_drawn() {
     };
     for outcome in outcomes.iter().filter(|o| o.result.is_ok()) {
         let measured = measured(outcome.method.name);
-        assert!(measured.time.is_finite(), "{}", outcome.method.name);
+        let time = measured.time;
+        assert!(time.ratio.is_finite() && time.ratio >= 0.0, "{}", outcome.method.name);
+        assert!(time.noise.is_finite() && time.noise >= 0.01, "{}", outcome.method.name);
+        let text = time.to_string();
+        assert_eq!(text.starts_with('<'), !time.is_measured(), "{text}");
         let views = if outcome.method.judged == Judged::Both { 2 } else { 1 };
         assert_eq!(measured.quality.pixels, views * 160 * 120);
         let picture = image::open(measured.file.as_ref().expect("a file")).expect("a picture");
@@ -51,6 +55,21 @@ fn every_method_is_measured_and_its_errors_drawn() {
     }
     assert_eq!(json[0]["both"]["identical"], true);
     assert_eq!(json[0]["work"]["pixels_tested"], direct.work.pixels_tested);
+}
+
+/// Where a view has a single pixel, what both views take more than one is less than noise.
+#[test]
+fn no_time_is_negative() {
+    for kind in [Kind::TwoCentres, Kind::Shear] {
+        let scene = open_projected("room", Some([1, 1]), None, Some(kind)).expect("built in");
+        let outcomes = compare(&Prepared::new(scene).expect("legal"), None, |_| ()).expect("done");
+        assert!(!table(&outcomes).contains(" -"), "a negative number");
+        for (outcome, json) in outcomes.iter().zip(json(&outcomes).as_array().expect("a list")) {
+            let Ok(measured) = &outcome.result else { continue };
+            assert!(measured.time.ratio >= 0.0, "{}", outcome.method.name);
+            assert_eq!(json["time_measured"], measured.time.is_measured());
+        }
+    }
 }
 
 #[test]

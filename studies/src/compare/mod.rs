@@ -10,9 +10,10 @@ mod methods;
 pub use methods::METHODS;
 
 use crate::prepared::Prepared;
-use crate::timing::{ratio, shortest};
+use crate::timing::{shortest, turns, Spell};
 use serde_json::{json, Value};
 use std::fmt;
+use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -105,7 +106,7 @@ pub struct Measured {
     /// Work for the second view.
     pub work: Work,
     /// Time of the second view over that of direct rendering.
-    pub time: f64,
+    pub time: Time,
     /// Time to make what must be made beforehand over that of direct rendering, if there is any.
     pub preparation: Option<f64>,
     /// The left and the right view against direct rendering.
@@ -114,6 +115,42 @@ pub struct Measured {
     pub quality: Quality,
     /// The error picture.
     pub file: Option<PathBuf>,
+}
+
+/// Time of a second view in that of direct rendering, the shortest runs of each.
+#[derive(Clone, Copy, Debug)]
+pub struct Time {
+    /// The ratio, at least 0.
+    pub ratio: f64,
+    /// How well it is known: a ratio of no more is no measurement.
+    pub noise: f64,
+}
+
+impl Time {
+    /// What `part` takes more than `rest`, by `whole`. Nothing takes less than no time.
+    fn of(part: Spell, rest: Option<Spell>, whole: Spell) -> Time {
+        let rest = rest.unwrap_or(Spell { shortest: Duration::ZERO, noise: Duration::ZERO });
+        let by_whole = |time: Duration| time.as_secs_f64() / whole.shortest.as_secs_f64();
+        Time {
+            ratio: by_whole(part.shortest.saturating_sub(rest.shortest)),
+            noise: by_whole(part.noise + rest.noise).max(0.01),
+        }
+    }
+
+    /// Whether it is more than noise.
+    pub fn is_measured(&self) -> bool {
+        self.ratio > self.noise
+    }
+}
+
+impl fmt::Display for Time {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_measured() {
+            return write!(f, "{:.2}", self.ratio);
+        }
+        // An upper bound is rounded up.
+        write!(f, "<{:.2}", (self.noise * 100.0).ceil() / 100.0)
+    }
 }
 
 /// Time that the rounds of one timing take together, about, if they are not very few.
@@ -162,14 +199,20 @@ pub fn compare(
     Ok(outcomes)
 }
 
-/// Time of a method's second view over that of direct rendering, in one run.
-fn second_view_time(method: &Method, prepared: &Prepared, first: &Frame, rounds: usize) -> f64 {
-    let direct = || prepared.job().view(Eye::Right, &mut Unmetered);
+/// Time of a method's second view over that of direct rendering; all take turns.
+fn second_view_time(method: &Method, prepared: &Prepared, left: &Frame, rounds: usize) -> Time {
+    let mut direct = || drop(black_box(prepared.job().view(Eye::Right, &mut Unmetered)));
     match method.timed {
-        Timed::Second(second) => ratio(rounds, || second(prepared, first), direct).median,
+        Timed::Second(second) => {
+            let mut second = || drop(black_box(second(prepared, left)));
+            let [second, direct] = turns(rounds, [&mut second, &mut direct]);
+            Time::of(second, None, direct)
+        }
         Timed::Both { both, first } => {
-            let both = ratio(rounds, || both(prepared), direct).median;
-            both - ratio(rounds, || first(prepared), direct).median
+            let mut both = || drop(black_box(both(prepared)));
+            let mut first = || drop(black_box(first(prepared)));
+            let [both, first, direct] = turns(rounds, [&mut both, &mut first, &mut direct]);
+            Time::of(both, Some(first), direct)
         }
     }
 }
@@ -235,7 +278,7 @@ pub fn table(outcomes: &[Outcome]) -> String {
             Ok(measured) => {
                 row.extend(cells(method, measured));
                 if let Some(preparation) = measured.preparation {
-                    let sum = measured.time + preparation;
+                    let sum = measured.time.ratio + preparation;
                     notes += &format!(
                         "\n{}: making the tree takes {preparation:.2} more, {sum:.2} together",
                         method.name
@@ -262,7 +305,7 @@ fn cells(method: &Method, measured: &Measured) -> [String; 10] {
         counted(work.arithmetic().all()),
         counted(work.pixels()),
         counted(work.beats),
-        format!("{time:.2}"),
+        time.to_string(),
         method.judged.name().into(),
         share(quality.ids - quality.ties),
         number(quality.ties),
@@ -314,9 +357,11 @@ pub fn json(outcomes: &[Outcome]) -> Value {
             "method": method.name,
             "operations": counts(json!(work.arithmetic())),
             "work": counts(json!(work)),
-            "time_ratio": time,
+            "time_ratio": time.ratio,
+            "time_noise": time.noise,
+            "time_measured": time.is_measured(),
             "preparation_time_ratio": preparation,
-            "time_ratio_with_preparation": preparation.map(|preparation| time + preparation),
+            "time_ratio_with_preparation": preparation.map(|preparation| time.ratio + preparation),
             "judged": method.judged.name(),
             "left": quality_json(&views[0]),
             "right": quality_json(&views[1]),
