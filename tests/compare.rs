@@ -57,6 +57,33 @@ fn every_method_is_measured_and_its_errors_drawn() {
     assert_eq!(json[0]["work"]["pixels_tested"], direct.work.pixels_tested);
 }
 
+/// With a head that the hardware is not built for nothing is derived, and the table says so.
+#[test]
+fn what_is_not_derived_is_told_with_its_reason() {
+    let folder = folder();
+    let file = folder.path().join("tilt.json");
+    std::fs::write(&file, r#"{"head_tilt": 20}"#).expect("written");
+    let scene = |rig| open("village", Some([80, 60]), rig).expect("built in");
+    for (rig, derives) in [(None, true), (Some(file.as_path()), false)] {
+        let prepared = Prepared::new(scene(rig)).expect("legal");
+        let outcomes = compare(&prepared, None, |_| ()).expect("done");
+        let (text, json) = (table(&outcomes), json(&outcomes));
+        for (n, minimal) in [(5, true), (6, false)] {
+            let name = METHODS[n].name;
+            let counts = prepared.job().planned(minimal);
+            assert_eq!(counts.derived > 0, derives);
+            let line = text.lines().find(|line| line.starts_with(&format!("{name}: derived ")));
+            let line = line.expect("a line beneath the table");
+            assert_eq!(line.contains("derived 0 of"), !derives, "{line}");
+            assert_eq!(line.contains(" tilted head"), !derives, "{line}");
+            assert_eq!(json[n]["derivation"]["derived"], counts.derived);
+            let other: u64 = counts.monocular.values().sum::<u64>() + counts.nothing;
+            assert_eq!(counts.derived + other, counts.polygons);
+        }
+        assert!(json[0]["derivation"].is_null());
+    }
+}
+
 /// Where a view has a single pixel, what both views take more than one is less than noise.
 #[test]
 fn no_time_is_negative() {

@@ -22,6 +22,7 @@ use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::picture::{
     frame_picture, side_by_side, write_png, Rgb, RgbImage, WriteError,
 };
+use wheatstone_golden::primary::Counts;
 use wheatstone_golden::quality::Quality;
 use wheatstone_golden::work::{Unmetered, Work};
 
@@ -69,6 +70,8 @@ pub struct Pair {
     pub frames: [Frame; 2],
     /// Work for the second view.
     pub work: Work,
+    /// How polygons were drawn, of a method that derives.
+    pub counts: Option<Counts>,
 }
 
 /// What is timed of a method, without counting. Only scenes that [`Method::draw`] can draw come
@@ -105,6 +108,8 @@ pub struct Outcome {
 pub struct Measured {
     /// Work for the second view.
     pub work: Work,
+    /// How polygons were drawn, of a method that derives.
+    pub counts: Option<Counts>,
     /// Time of the second view over that of direct rendering.
     pub time: Time,
     /// Time to make what must be made beforehand over that of direct rendering, if there is any.
@@ -167,7 +172,7 @@ pub fn compare(
     let start = Instant::now();
     let direct = job.direct();
     let rounds = ROUNDS_TIME.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6);
-    let rounds = rounds.clamp(7.0, 31.0) as usize;
+    let rounds = rounds.clamp(9.0, 31.0) as usize;
     let mut outcomes = Vec::new();
     for method in METHODS {
         tell(method);
@@ -191,7 +196,8 @@ pub fn compare(
                 };
                 let time = second_view_time(method, prepared, &direct[0], rounds);
                 let preparation = preparation_time(method, prepared);
-                Ok(Measured { work: pair.work, time, preparation, views, quality, file })
+                let Pair { work, counts, .. } = pair;
+                Ok(Measured { work, counts, time, preparation, views, quality, file })
             }
         };
         outcomes.push(Outcome { method: *method, result });
@@ -284,6 +290,9 @@ pub fn table(outcomes: &[Outcome]) -> String {
                         method.name
                     );
                 }
+                if let Some(counts) = &measured.counts {
+                    notes += &format!("\n{}: {}", method.name, derived(counts));
+                }
             }
         }
         table.add_row(row);
@@ -292,6 +301,29 @@ pub fn table(outcomes: &[Outcome]) -> String {
         column.set_cell_alignment(comfy_table::CellAlignment::Right);
     }
     format!("{table}{notes}")
+}
+
+/// How many polygons were derived, and why the others were not.
+fn derived(counts: &Counts) -> String {
+    let number = |n: u64| Grouped(n).to_string();
+    let mut why: Vec<String> =
+        counts.monocular.iter().map(|(reason, n)| number(*n) + " " + reason.name()).collect();
+    if counts.nothing > 0 {
+        why.push(number(counts.nothing) + " covering nothing");
+    }
+    let why = if why.is_empty() { "none".into() } else { why.join(", ") };
+    format!("derived {} of {}; not derived: {why}", number(counts.derived), number(counts.polygons))
+}
+
+/// The same as JSON.
+fn derived_json(counts: &Counts) -> Value {
+    let reasons = counts.monocular.iter().map(|(reason, n)| (reason.name().into(), json!(n)));
+    json!({
+        "polygons": counts.polygons,
+        "derived": counts.derived,
+        "monocular": Value::Object(reasons.collect()),
+        "nothing": counts.nothing,
+    })
 }
 
 fn cells(method: &Method, measured: &Measured) -> [String; 10] {
@@ -353,10 +385,11 @@ fn quality_json(quality: &Quality) -> Value {
 pub fn json(outcomes: &[Outcome]) -> Value {
     let one = |Outcome { method, result }: &Outcome| match result {
         Err(unsuited) => json!({ "method": method.name, "unsuited": unsuited.to_string() }),
-        Ok(Measured { work, time, preparation, views, file, .. }) => json!({
+        Ok(Measured { work, counts: drawn, time, preparation, views, file, .. }) => json!({
             "method": method.name,
             "operations": counts(json!(work.arithmetic())),
             "work": counts(json!(work)),
+            "derivation": drawn.as_ref().map(derived_json),
             "time_ratio": time.ratio,
             "time_noise": time.noise,
             "time_measured": time.is_measured(),
