@@ -8,7 +8,9 @@ use wheatstone_golden::quality::Quality;
 use wheatstone_golden::scene::{open, open_projected};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::work::{Unmetered, Work};
-use wheatstone_studies::compare::{compare, error_picture, json, table, Judged, Timed, METHODS};
+use wheatstone_studies::compare::{
+    compare, error_picture, json, table, Grouped, Judged, Timed, METHODS,
+};
 use wheatstone_studies::prepared::Prepared;
 use wheatstone_tests::folder;
 
@@ -55,6 +57,24 @@ fn every_method_is_measured_and_its_errors_drawn() {
     }
     assert_eq!(json[0]["both"]["identical"], true);
     assert_eq!(json[0]["work"]["pixels_tested"], direct.work.pixels_tested);
+}
+
+/// The readme's table of scenes.
+#[test]
+fn the_readme_tells_what_is_derived_of_each_scene() {
+    let readme = include_str!("../README.md");
+    let grouped = |n: u64| Grouped(n).to_string();
+    for scene in ["village", "office", "teapot", "atoms"] {
+        let start = format!("| `{scene}`");
+        let line = readme.lines().find(|line| line.starts_with(&start)).expect(scene);
+        let prepared = Prepared::new(open(scene, None, None).expect("built in")).expect("legal");
+        let beats = |n: usize| (METHODS[n].draw)(&prepared).expect("it is drawn").work.beats;
+        let [pass, derived] = [beats(0), beats(6)];
+        let counts = prepared.job().planned(false);
+        let part = (100.0 * derived as f64 / pass as f64).round();
+        let [a, b, c, d] = [counts.polygons, counts.derived, derived, pass].map(grouped);
+        assert!(line.contains(&format!("| {a} | {b} | {c} | {d} | {part} % |")), "{line}");
+    }
 }
 
 /// With a head that the hardware is not built for nothing is derived, and the table says so.
