@@ -8,7 +8,9 @@ use wheatstone_golden::quality::Quality;
 use wheatstone_golden::scene::{open, open_projected};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::work::{Unmetered, Work};
-use wheatstone_studies::compare::{compare, error_picture, json, table, Judged, Timed, METHODS};
+use wheatstone_studies::compare::{
+    compare, error_picture, json, table, Grouped, Judged, Timed, METHODS,
+};
 use wheatstone_studies::prepared::Prepared;
 use wheatstone_tests::folder;
 
@@ -30,7 +32,11 @@ fn every_method_is_measured_and_its_errors_drawn() {
     };
     for outcome in outcomes.iter().filter(|o| o.result.is_ok()) {
         let measured = measured(outcome.method.name);
-        assert!(measured.time.is_finite(), "{}", outcome.method.name);
+        let time = measured.time;
+        assert!(time.ratio.is_finite() && time.ratio >= 0.0, "{}", outcome.method.name);
+        assert!(time.noise.is_finite() && time.noise >= 0.01, "{}", outcome.method.name);
+        let text = time.to_string();
+        assert_eq!(text.starts_with('<'), !time.is_measured(), "{text}");
         let views = if outcome.method.judged == Judged::Both { 2 } else { 1 };
         assert_eq!(measured.quality.pixels, views * 160 * 120);
         let picture = image::open(measured.file.as_ref().expect("a file")).expect("a picture");
@@ -51,6 +57,66 @@ fn every_method_is_measured_and_its_errors_drawn() {
     }
     assert_eq!(json[0]["both"]["identical"], true);
     assert_eq!(json[0]["work"]["pixels_tested"], direct.work.pixels_tested);
+}
+
+/// The readme's table of scenes.
+#[test]
+fn the_readme_tells_what_is_derived_of_each_scene() {
+    let readme = include_str!("../README.md");
+    let grouped = |n: u64| Grouped(n).to_string();
+    for scene in ["village", "office", "teapot", "atoms"] {
+        let start = format!("| `{scene}`");
+        let line = readme.lines().find(|line| line.starts_with(&start)).expect(scene);
+        let prepared = Prepared::new(open(scene, None, None).expect("built in")).expect("legal");
+        let beats = |n: usize| (METHODS[n].draw)(&prepared).expect("it is drawn").work.beats;
+        let [pass, derived] = [beats(0), beats(6)];
+        let counts = prepared.job().planned(false);
+        let part = (100.0 * derived as f64 / pass as f64).round();
+        let [a, b, c, d] = [counts.polygons, counts.derived, derived, pass].map(grouped);
+        assert!(line.contains(&format!("| {a} | {b} | {c} | {d} | {part} % |")), "{line}");
+    }
+}
+
+/// With a head that the hardware is not built for nothing is derived, and the table says so.
+#[test]
+fn what_is_not_derived_is_told_with_its_reason() {
+    let folder = folder();
+    let file = folder.path().join("tilt.json");
+    std::fs::write(&file, r#"{"head_tilt": 20}"#).expect("written");
+    let scene = |rig| open("village", Some([80, 60]), rig).expect("built in");
+    for (rig, derives) in [(None, true), (Some(file.as_path()), false)] {
+        let prepared = Prepared::new(scene(rig)).expect("legal");
+        let outcomes = compare(&prepared, None, |_| ()).expect("done");
+        let (text, json) = (table(&outcomes), json(&outcomes));
+        for (n, minimal) in [(5, true), (6, false)] {
+            let name = METHODS[n].name;
+            let counts = prepared.job().planned(minimal);
+            assert_eq!(counts.derived > 0, derives);
+            let line = text.lines().find(|line| line.starts_with(&format!("{name}: derived ")));
+            let line = line.expect("a line beneath the table");
+            assert_eq!(line.contains("derived 0 of"), !derives, "{line}");
+            assert_eq!(line.contains(" tilted head"), !derives, "{line}");
+            assert_eq!(json[n]["derivation"]["derived"], counts.derived);
+            let other: u64 = counts.monocular.values().sum::<u64>() + counts.nothing;
+            assert_eq!(counts.derived + other, counts.polygons);
+        }
+        assert!(json[0]["derivation"].is_null());
+    }
+}
+
+/// Where a view has a single pixel, what both views take more than one is less than noise.
+#[test]
+fn no_time_is_negative() {
+    for kind in [Kind::TwoCentres, Kind::Shear] {
+        let scene = open_projected("room", Some([1, 1]), None, Some(kind)).expect("built in");
+        let outcomes = compare(&Prepared::new(scene).expect("legal"), None, |_| ()).expect("done");
+        assert!(!table(&outcomes).contains(" -"), "a negative number");
+        for (outcome, json) in outcomes.iter().zip(json(&outcomes).as_array().expect("a list")) {
+            let Ok(measured) = &outcome.result else { continue };
+            assert!(measured.time.ratio >= 0.0, "{}", outcome.method.name);
+            assert_eq!(json["time_measured"], measured.time.is_measured());
+        }
+    }
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn broken_grids_are_refused_by_line_and_column() {
         ("# nothing\n", &format!(": {size} 0 x 0")),
         ("1\n2\n3\n", &format!(": {size} 1 x 3")),
         ("1 2 3\n", &format!(": {size} 3 x 1")),
-        (&wide, &format!("{size} 1025 x 1")),
+        (&wide, &format!("{size} 1025 x 2")),
         (&tall, &format!("{size} 2 x 1025")),
     ];
     let folder = folder();

@@ -13,14 +13,16 @@ fn report(name: &str, rows: Vec<Row>) -> Report {
     Report { experiment: name.into(), tables: vec![table], ..Report::default() }
 }
 
-/// Two figures that hold, of which one has an erratum, one that differs and one that is a trend.
+/// Two figures that hold, of which one has an erratum, one that differs, one that is a trend
+/// and one that is quoted.
 fn mixed(out: &Path) -> Result<Report, StudyError> {
     write_file(&out.join("plot.svg"), b"<svg/>")?;
     let rows = vec![
         Row::new("whole", 5.0, 0, Check::Digits).printed(5.0),
         Row::new("wrong in print", 1.5, 2, Check::Digits).printed(1.67).corrected(1.5, "1 + II"),
         Row::new("wrong here", 2.0, 1, Check::AtMost(1.0)),
-        Row::new("seconds", 0.1, 2, Check::Trend).printed(9.0).unit("s"),
+        Row::new("seconds", 0.1, 2, Check::Trend).printed(9.0).unit("s").note("other machine"),
+        Row::quoted("gates", 7.0),
     ];
     Ok(report("mixed", rows))
 }
@@ -44,7 +46,7 @@ fn every_experiment_leaves_its_tables_and_figures() {
     });
     let reports = reports.expect("it runs");
     assert_eq!(events, ["begin mixed", "end mixed"]);
-    assert_eq!(Summary::of(&reports), Summary { holds: 2, differs: 1, trend: 1 });
+    assert_eq!(Summary::of(&reports), Summary { holds: 2, differs: 1, trend: 1, quoted: 1 });
     let at = |name: &str| folder.path().join("mixed").join(name);
     assert!(at("plot.svg").exists());
     let text = fs::read_to_string(at("tables.txt")).expect("tables");
@@ -53,12 +55,16 @@ fn every_experiment_leaves_its_tables_and_figures() {
         serde_json::from_str(&fs::read_to_string(at("report.json")).expect("a report")).unwrap();
     let rows = value["tables"][0]["rows"].as_array().expect("rows").clone();
     let verdicts: Vec<&Value> = rows.iter().map(|row| &row["verdict"]).collect();
-    assert_eq!(verdicts, ["holds", "holds", "differs", "trend"]);
+    assert_eq!(verdicts, ["holds", "holds", "differs", "trend", "quoted"]);
     assert_eq!((&rows[1]["printed"], &rows[1]["corrected"]), (&1.67.into(), &1.5.into()));
     assert_eq!(rows[1]["erratum"], "1 + II");
+    assert_eq!(rows[3]["note"], "other machine");
     assert_eq!(rows[2]["check"]["at_most"], 1.0);
     let all: Value = serde_json::from_str(&json(&reports, "a command")).unwrap();
-    assert_eq!(all["summary"], serde_json::json!({ "holds": 2, "differs": 1, "trend": 1 }));
+    assert_eq!(
+        all["summary"],
+        serde_json::json!({ "holds": 2, "differs": 1, "trend": 1, "quoted": 1 })
+    );
     assert_eq!(all["experiments"][0], value);
     assert_eq!(all["command"], "a command");
 }

@@ -330,18 +330,14 @@ fn plots(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
     let axes = ["distance in the scene / ft", "perceived distance / in"];
     let [map, pieces, fields] = ["distance_map.svg", "piecewise_map.svg", "fields_of_view.svg"]
         .map(|name| folder.join(name));
-    let asymptotic = Series {
-        name: format!("asymptotic: {SI} ft at the screen, infinity at {MAXD} in"),
-        points: curve(&asymptotic, asymptotic.rig.near()),
-    };
-    let limit = |name: &str, d: f64| Series {
-        name: format!("{name}, {d} in"),
-        points: vec![(0.0, d), (600.0, d)],
-    };
+    let name = format!("asymptotic: {SI} ft at the screen, infinity at {MAXD} in");
+    let asymptotic = Series::new(name, curve(&asymptotic, asymptotic.rig.near()));
+    let limit =
+        |name: &str, d: f64| Series::new(format!("{name}, {d} in"), vec![(0.0, d), (600.0, d)]);
     let limits = [limit("MIND", MIND), limit("SD", SD), limit("MAXD", MAXD)];
     let series = [std::slice::from_ref(&asymptotic), &limits[..]].concat();
     plot::lines(&map, "Asymptotic projection", axes, &series)?;
-    let four = Series { name: "four partitions".into(), points: curve(&piecewise, 50.0) };
+    let four = Series::new("four partitions", curve(&piecewise, 50.0));
     plot::lines(&pieces, "Piecewise projection", axes, &[four, asymptotic])?;
 
     let screen = screen();
@@ -350,14 +346,13 @@ fn plots(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
         let nearest = screen.nearest(clipping);
         let field = |distance: f64| screen.field_of_view(clipping, distance);
         let distances = || (0..=300).map(|n| nearest + (60.0 - nearest) * f64::from(n) / 300.0);
-        series.push(Series {
-            name: format!("{clipping:?}: stereo"),
-            points: distances().map(|d| (d, field(d).stereo)).collect(),
-        });
-        series.push(Series {
-            name: format!("{clipping:?}: total"),
-            points: distances().map(|d| (d, field(d).total())).collect(),
-        });
+        let stereo = distances().map(|d| (d, field(d).stereo)).collect();
+        let total = distances().map(|d| (d, field(d).total())).collect();
+        let both = [("stereo", stereo), ("total", total)];
+        let both = both.map(|(part, points)| Series::new(format!("{clipping:?}: {part}"), points));
+        // With symmetric clipping the total is that of one of these on either side of the screen.
+        let over = clipping == Clipping::Asymmetric;
+        series.extend(both.map(|series| if over { series.dashed() } else { series }));
     }
     let axes = ["perceived distance / in", "horizontal field of view / degrees"];
     plot::lines(&fields, "Fields of view", axes, &series)?;

@@ -1,5 +1,6 @@
 //! Plots as SVG.
 
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use std::path::Path;
 use wheatstone_golden::picture::{write_file, WriteError};
@@ -19,6 +20,9 @@ const COLOURS: [RGBColor; 7] = [
 ];
 /// A curve of more points has no markers.
 const MOST_MARKERS: usize = 100;
+/// Pixels of a dash, and between two.
+const DASH: u32 = 7;
+const GAP: u32 = 5;
 const LEGEND_COLUMNS: usize = 2;
 /// Height of a line of the legend in pixels.
 const LEGEND_ROW: u32 = 20;
@@ -35,12 +39,19 @@ pub struct Series {
     pub name: String,
     /// Its points in the order they are joined; the line is interrupted where one is not finite.
     pub points: Vec<(f64, f64)>,
+    /// Whether its line is dashed, so that another that lies under it can be seen.
+    pub dashed: bool,
 }
 
 impl Series {
     /// A series of that name.
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Series {
-        Series { name: name.into(), points }
+        Series { name: name.into(), points, dashed: false }
+    }
+
+    /// The series with a dashed line.
+    pub fn dashed(self) -> Series {
+        Series { dashed: true, ..self }
     }
 }
 
@@ -87,10 +98,15 @@ fn draw(picture: &mut String, title: &str, axes: [&str; 2], series: &[Series]) -
         .bold_line_style(GRID)
         .light_line_style(TRANSPARENT)
         .draw()?;
-    for (n, Series { name, points }) in series.iter().enumerate() {
+    for (n, Series { name, points, dashed }) in series.iter().enumerate() {
         let colour = COLOURS[n % COLOURS.len()];
         for run in points.split(|p| !is_finite(p)).filter(|run| run.len() > 1) {
-            chart.draw_series(LineSeries::new(run.iter().copied(), colour.stroke_width(2)))?;
+            let (run, style) = (run.iter().copied(), colour.stroke_width(2));
+            if *dashed {
+                chart.draw_series(DashedLineSeries::new(run, DASH, GAP, style))?;
+            } else {
+                chart.draw_series(LineSeries::new(run, style))?;
+            }
         }
         if points.len() <= MOST_MARKERS {
             let at = points.iter().filter(|p| is_finite(p));
@@ -99,7 +115,12 @@ fn draw(picture: &mut String, title: &str, axes: [&str; 2], series: &[Series]) -
         // Beneath the plot, where it hides nothing.
         let x = 90 + (n % LEGEND_COLUMNS) as i32 * (SIZE.0 as i32 - 100) / LEGEND_COLUMNS as i32;
         let y = (n / LEGEND_COLUMNS) as i32 * LEGEND_ROW as i32 + 6;
-        legend.draw(&PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(3)))?;
+        let (line, style) = ([(x, y), (x + 24, y)], colour.stroke_width(3));
+        if *dashed {
+            legend.draw(&DashedPathElement::new(line, DASH, GAP, style))?;
+        } else {
+            legend.draw(&PathElement::new(line, style))?;
+        }
         legend.draw(&Text::new(name.as_str(), (x + 32, y - 7), text_style()))?;
     }
     root.present()?;

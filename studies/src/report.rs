@@ -55,6 +55,9 @@ pub struct Row {
     /// and what it says.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub erratum: Option<&'static str>,
+    /// What else must be known of it: where a limit comes from, why it is not judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<&'static str>,
 }
 
 /// What a figure must hold.
@@ -83,6 +86,8 @@ pub enum Verdict {
     Differs,
     /// It is not judged.
     Trend,
+    /// It is printed, and not computed here.
+    Quoted,
 }
 
 impl Row {
@@ -99,6 +104,7 @@ impl Row {
             digits,
             check,
             erratum: None,
+            note: None,
         }
     }
 
@@ -141,6 +147,12 @@ impl Row {
         self
     }
 
+    /// Says what else must be known of it.
+    pub fn note(mut self, note: &'static str) -> Row {
+        self.note = Some(note);
+        self
+    }
+
     /// Names the unit.
     pub fn unit(mut self, unit: &str) -> Row {
         self.unit = unit.into();
@@ -158,6 +170,7 @@ impl Row {
             Check::Within(part) => holds((self.here - reference).abs() <= part * reference.abs()),
             Check::AtLeast(least) => holds(self.here >= least),
             Check::AtMost(most) => holds(self.here <= most),
+            Check::Trend if self.here.is_nan() => Verdict::Quoted,
             Check::Trend => Verdict::Trend,
         }
     }
@@ -228,30 +241,33 @@ impl fmt::Display for Table {
         table.load_preset(presets::UTF8_BORDERS_ONLY);
         table.set_content_arrangement(ContentArrangement::Disabled);
         table.set_header(["", "printed", "corrected", "here", "", "held to", ""]);
-        let mut errata: Vec<&str> = Vec::new();
-        for row in &self.rows {
-            let mark = row.erratum.map_or(String::new(), |erratum| {
-                let found = errata.iter().position(|&known| known == erratum);
+        let mut footnotes: Vec<&str> = Vec::new();
+        let mut mark = |text: Option<&'static str>| {
+            text.map_or(String::new(), |text| {
+                let found = footnotes.iter().position(|&known| known == text);
                 let index = found.unwrap_or_else(|| {
-                    errata.push(erratum);
-                    errata.len() - 1
+                    footnotes.push(text);
+                    footnotes.len() - 1
                 });
                 format!("[{}]", index + 1)
-            });
+            })
+        };
+        for row in &self.rows {
+            let [erratum, note] = [mark(row.erratum), mark(row.note)];
             let verdict = match row.verdict() {
                 Verdict::Holds => "holds",
                 Verdict::Differs => "DIFFERS",
-                Verdict::Trend if row.here.is_nan() => "quoted",
                 Verdict::Trend => "trend",
+                Verdict::Quoted => "quoted",
             };
             table.add_row([
                 row.what.clone(),
                 format!("{}{}", less(row.printed_less), row.text(row.printed)),
-                format!("{}{}{mark}", less(row.corrected_less()), row.text(row.corrected)),
+                format!("{}{}{erratum}", less(row.corrected_less()), row.text(row.corrected)),
                 format!("{}{}", less(row.here_less), row.text(Some(row.here))),
                 row.unit.clone(),
                 row.held_to(),
-                verdict.into(),
+                format!("{verdict}{note}"),
             ]);
         }
         writeln!(f, "{}", self.title)?;
@@ -259,8 +275,8 @@ impl fmt::Display for Table {
             return Ok(());
         }
         writeln!(f, "{table}")?;
-        for (index, erratum) in errata.iter().enumerate() {
-            writeln!(f, "  [{}] {erratum}", index + 1)?;
+        for (index, footnote) in footnotes.iter().enumerate() {
+            writeln!(f, "  [{}] {footnote}", index + 1)?;
         }
         Ok(())
     }
@@ -287,5 +303,11 @@ mod tests {
         assert_eq!(wrong.verdict(), Verdict::Holds);
         let table = Table { title: "t".into(), rows: vec![wrong] }.to_string();
         assert!(table.contains("1.67") && table.contains("[1] 1 + II"), "{table}");
+        let quoted = Row::quoted("x", 9.0);
+        assert_eq!(quoted.verdict(), Verdict::Quoted);
+        let rows = vec![quoted.note("a"), Row::new("y", 1.0, 0, Check::Trend).note("a")];
+        let table = Table { title: "t".into(), rows }.to_string();
+        assert!(table.contains("quoted[1]") && table.contains("trend[1]"), "{table}");
+        assert_eq!(table.matches("  [1] a\n").count(), 1, "{table}");
     }
 }

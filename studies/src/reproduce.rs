@@ -24,8 +24,10 @@ pub struct Summary {
     pub holds: usize,
     /// Figures that do not.
     pub differs: usize,
-    /// Figures that depend on the machine.
+    /// Figures that are not judged, as what depends on the machine.
     pub trend: usize,
+    /// Printed figures that are not computed, but others are with them.
+    pub quoted: usize,
 }
 
 impl Summary {
@@ -37,6 +39,7 @@ impl Summary {
                 Verdict::Holds => &mut summary.holds,
                 Verdict::Differs => &mut summary.differs,
                 Verdict::Trend => &mut summary.trend,
+                Verdict::Quoted => &mut summary.quoted,
             } += 1;
         }
         summary

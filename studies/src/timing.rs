@@ -12,8 +12,6 @@ const CONSIDERABLE: f64 = 0.1;
 /// Time of one piece of code beside that of another.
 #[derive(Clone, Copy, Debug)]
 pub struct Ratio {
-    /// Median of the ratios of neighbouring runs, first : second.
-    pub median: f64,
     /// Shortest run of the first.
     pub first: Duration,
     /// Shortest run of the second.
@@ -64,24 +62,38 @@ pub fn ratio<A, B>(
     mut first: impl FnMut() -> A,
     mut second: impl FnMut() -> B,
 ) -> Ratio {
+    let [first, second] =
+        turns(rounds, [&mut || drop(black_box(first())), &mut || drop(black_box(second()))]);
+    Ratio { first: first.shortest, second: second.shortest }
+}
+
+/// How long a piece of code takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Spell {
+    /// Its shortest run.
+    pub shortest: Duration,
+    /// By how much the shortest of its even runs differs from that of its odd ones: how well the
+    /// shortest is known.
+    pub noise: Duration,
+}
+
+/// Runs pieces of code in turns, `rounds` times each.
+pub fn turns<const N: usize>(rounds: usize, mut codes: [&mut dyn FnMut(); N]) -> [Spell; N] {
     // Once for caches and branch predictors.
-    time(&mut first);
-    time(&mut second);
-    let mut ratios = Vec::new();
-    let mut least = [Duration::MAX; 2];
+    codes.iter_mut().for_each(|code| code());
+    let mut least = [[Duration::MAX; 2]; N];
     for round in 0..rounds_in_this_build(rounds) {
-        let times = if round % 2 == 0 {
-            let one = time(&mut first);
-            [one, time(&mut second)]
-        } else {
-            let two = time(&mut second);
-            [time(&mut first), two]
-        };
-        least = [least[0].min(times[0]), least[1].min(times[1])];
-        ratios.push(times[0].as_secs_f64() / times[1].as_secs_f64());
+        // Another one begins each round, so that none always follows the same one.
+        for n in (0..N).map(|n| (n + round) % N) {
+            let least = &mut least[n][round % 2];
+            *least = time(&mut codes[n]).min(*least);
+        }
     }
-    ratios.sort_by(f64::total_cmp);
-    Ratio { median: ratios[ratios.len() / 2], first: least[0], second: least[1] }
+    least.map(|[even, odd]| {
+        // In a single round there is nothing to compare.
+        let noise = if odd == Duration::MAX { Duration::ZERO } else { even.abs_diff(odd) };
+        Spell { shortest: even.min(odd), noise }
+    })
 }
 
 /// Times of a debug build are not judged: one round shows that it can be measured.

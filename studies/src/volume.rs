@@ -266,7 +266,8 @@ impl Volume {
         let fields = [
             series("both eyes", |seen| seen.stereo),
             series("one eye at the left, and at the right", |seen| seen.left),
-            series("total", FieldOfView::total),
+            // Where neither eye sees more than the other it lies on the first.
+            series("total", FieldOfView::total).dashed(),
         ];
         let axes = ["perceived distance", "horizontal field of view / degrees"];
         plot::lines(&files[1], &format!("Fields of view, {kind}"), axes, &fields)?;

@@ -1,5 +1,6 @@
-//! Convex polygons cut by a half space, whatever their corners carry. No publication's: the guard band's
-//! and the near plane's clipping.
+//! Convex polygons cut by a half space, whatever their corners carry. The guard band's and the near plane's
+//! clipping: Sutherland and Hodgman's, "Reentrant Polygon Clipping", 1974, against one plane; the corner on
+//! it is p + t (q − p), t = d(p)/(d(p) − d(q)). None of the five publications describes it.
 
 use crate::work::Real;
 

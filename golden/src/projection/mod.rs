@@ -7,10 +7,9 @@
 //!
 //! The page `docs/projections.md` compares them and proves that disparity on a plane is affine in screen
 //! coordinates in all of them, which is what the pipeline lives on. Distances in the scene are from
-//! the plane of the eyes, z = −d. Sources: S. J. Adelson et al., "Simultaneous Generation of
-//! Stereoscopic Views", 1991 (two centres, shear, translation); V. J. Duvanenko and W. E. Robbins,
-//! "Algorithms for Stereoscopic Imaging", 1993 (translation, the display's units); NASA Technical Paper
-//! of 1992 on depth-viewing volumes, here "NASA 1992" (asymptotic, piecewise, clipping).
+//! the plane of the eyes, z = −d. Sources, cited in full in `docs/README.md`: Adelson et al. 1991 (two
+//! centres, shear, translation), Duvanenko and Robbins 1993 (translation, the display's units), NASA
+//! 1992 (asymptotic, piecewise, clipping).
 
 mod field_of_view;
 mod map;

@@ -293,11 +293,7 @@ pub fn read_grid(file: &Path, text: &str) -> Result<HeightGrid, InputError> {
     // Number of columns, and the line that said so.
     let mut first = None;
     let mut rows = 0;
-    for (line, content) in text.lines().enumerate().map(|(n, line)| (n + 1, line)) {
-        let content = content.split('#').next().unwrap_or_default().trim();
-        if content.is_empty() {
-            continue;
-        }
+    for (line, content) in rows_of(text) {
         let before = heights.len();
         for (n, word) in words(content).enumerate() {
             let height: Option<f64> = word.parse().ok();
@@ -316,12 +312,20 @@ pub fn read_grid(file: &Path, text: &str) -> Result<HeightGrid, InputError> {
             return Err(InputError::new(file, line, field, expected, count.to_string()));
         }
         if columns.max(rows) > GRID_LIMIT {
-            check_size(file, columns, rows)?;
+            // The rest is not read, but counted.
+            check_size(file, columns, rows_of(text).count())?;
         }
     }
     let columns = first.map_or(0, |(columns, _)| columns);
     check_size(file, columns, rows)?;
     Ok(HeightGrid { columns, heights })
+}
+
+/// Lines that hold heights, with their numbers, without comments.
+fn rows_of(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let lines = (1..).zip(text.lines());
+    let lines = lines.map(|(n, line)| (n, line.split('#').next().unwrap_or_default().trim()));
+    lines.filter(|(_, content)| !content.is_empty())
 }
 
 /// The numbers of a line: between commas if there are any, else between blanks.

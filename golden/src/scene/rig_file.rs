@@ -29,7 +29,7 @@
 //! `null` leaves them as they are) times its longer side.
 //!
 //! `translate`: the display from which `eye_separation` and `viewing_distance` follow, instead of
-//! being given: `eye_distance`, `viewing_distance` and `dot_pitch` in inches or any other unit, all
+//! being given (a file that has `translate` and one of them is refused): `eye_distance`, `viewing_distance` and `dot_pitch` in inches or any other unit, all
 //! three. A dot is a pixel.
 //!
 //! `asymptotic`: `screen_intercept` is the distance in the scene that is seen at the screen (default:
@@ -125,6 +125,14 @@ impl RigFile {
             let field = if self.width.is_some() { "width" } else { "height" };
             let expected = "width and height, or neither";
             return Err(self.wrong(field, expected, format!("{n} alone")).into());
+        }
+        let beside =
+            [("eye_separation", self.eye_separation), ("viewing_distance", self.viewing_distance)];
+        if let (Some(_), Some((field, Some(n)))) =
+            (self.translate, beside.into_iter().find(|(_, value)| value.is_some()))
+        {
+            let expected = "translate or this, not both: it follows from translate's lengths";
+            return Err(self.wrong(field, expected, format!("{n} beside translate")).into());
         }
         for (field, value) in [("width", self.width), ("height", self.height)] {
             if value.is_some_and(|n| n == 0 || n > SIZE_LIMIT) {

@@ -1,4 +1,5 @@
-//! Depths of the nearest polygons, compared span by span.
+//! Depths of the nearest polygons, compared span by span: the depth test of the scan line (Adelson et al.
+//! 1991, "Scan-line algorithms"). That depth is stepped in integers is no publication's.
 
 use super::scan_line::Line;
 use crate::work::Real;

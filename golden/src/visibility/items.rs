@@ -1,4 +1,5 @@
-//! Item buffers: what polygon each pixel shows.
+//! Item buffers: what polygon each pixel shows, as the P-buffer's ids do (Heo, Jung and Wohn 1998, section
+//! IV); here also what BSP tree and scan line (Adelson et al. 1991) resolve, which is shaded afterwards.
 
 /// Item of a pixel that shows no polygon.
 pub const NO_ITEM: u32 = u32::MAX;

@@ -1,8 +1,9 @@
-//! The full pipeline for one view: transform, clip, scan-convert, test depth. One colour a polygon.
+//! The full pipeline for one view: transform, clip, scan-convert, test depth. One colour a polygon. Heo,
+//! Jung and Wohn 1998, figure 6, without its ids and its second view, which are the P-buffer's.
 //!
 //! Scan conversion is exact, as in [`crate::direct`]: corners are snapped to subpixels, and an edge's
 //! crossing with each centre line is stepped in integers. Of equal depths the polygon drawn first
-//! stays (the publication keeps the last one).
+//! stays (Heo, Jung and Wohn keep the last one).
 
 use super::model::{Model, Piece};
 use super::view::View;

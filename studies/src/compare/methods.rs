@@ -29,7 +29,7 @@ pub const METHODS: &[Method] = &[
             let right = job.view(Eye::Right, &mut work);
             // What a second pass of the pixel pipeline would take.
             work.beats = alone(prepared, Eye::Right, false).1.beats();
-            Ok(Pair { frames: [left, right], work })
+            Ok(Pair { frames: [left, right], work, counts: None })
         },
         timed: Timed::Second(|prepared, _| prepared.job().view(Eye::Right, &mut Unmetered)),
     },
@@ -43,7 +43,7 @@ pub const METHODS: &[Method] = &[
             let job = prepared.job();
             let left = job.view(Eye::Left, &mut Unmetered);
             let warped = warp(prepared, &left, &mut work);
-            Ok(Pair { frames: [left, warped.frame], work })
+            Ok(Pair { frames: [left, warped.frame], work, counts: None })
         },
         timed: Timed::Second(|prepared, left| warp(prepared, left, &mut Unmetered).frame),
     },
@@ -57,7 +57,7 @@ pub const METHODS: &[Method] = &[
             let job = prepared.job();
             let left = job.view(Eye::Left, &mut Unmetered);
             let right = p_buffer::other_eye(&job, &left, Eye::Left, &mut work);
-            Ok(Pair { frames: [left, right], work })
+            Ok(Pair { frames: [left, right], work, counts: None })
         },
         timed: Timed::Second(|prepared, left| {
             p_buffer::other_eye(&prepared.job(), left, Eye::Left, &mut Unmetered)
@@ -161,7 +161,7 @@ fn simultaneous(
     let [left, right] = items;
     let left = surfaces.frame(&left, Eye::Left);
     let right = surfaces.frame_metered(&right, Eye::Right, &mut together);
-    Ok(Pair { frames: [left, right], work: together.beyond(&alone) })
+    Ok(Pair { frames: [left, right], work: together.beyond(&alone), counts: None })
 }
 
 /// Frames of views that are resolved by `resolve`, the left one first.
@@ -205,5 +205,5 @@ fn mapped(prepared: &Prepared, minimal: bool) -> Pair {
         pixels_written: frames.written[Eye::Right as usize],
         ..Work::default()
     };
-    Pair { frames: frames.eyes, work }
+    Pair { frames: frames.eyes, work, counts: Some(counts) }
 }

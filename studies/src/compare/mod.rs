@@ -6,13 +6,15 @@
 //! view where it alone is made, and of both views where both are ([`Judged`]).
 
 mod methods;
+mod show;
 
 pub use methods::METHODS;
+pub use show::{json, table, Grouped};
 
 use crate::prepared::Prepared;
-use crate::timing::{ratio, shortest};
-use serde_json::{json, Value};
+use crate::timing::{shortest, turns, Spell};
 use std::fmt;
+use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -21,6 +23,7 @@ use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::picture::{
     frame_picture, side_by_side, write_png, Rgb, RgbImage, WriteError,
 };
+use wheatstone_golden::primary::Counts;
 use wheatstone_golden::quality::Quality;
 use wheatstone_golden::work::{Unmetered, Work};
 
@@ -68,6 +71,8 @@ pub struct Pair {
     pub frames: [Frame; 2],
     /// Work for the second view.
     pub work: Work,
+    /// How polygons were drawn, of a method that derives.
+    pub counts: Option<Counts>,
 }
 
 /// What is timed of a method, without counting. Only scenes that [`Method::draw`] can draw come
@@ -104,8 +109,10 @@ pub struct Outcome {
 pub struct Measured {
     /// Work for the second view.
     pub work: Work,
+    /// How polygons were drawn, of a method that derives.
+    pub counts: Option<Counts>,
     /// Time of the second view over that of direct rendering.
-    pub time: f64,
+    pub time: Time,
     /// Time to make what must be made beforehand over that of direct rendering, if there is any.
     pub preparation: Option<f64>,
     /// The left and the right view against direct rendering.
@@ -114,6 +121,42 @@ pub struct Measured {
     pub quality: Quality,
     /// The error picture.
     pub file: Option<PathBuf>,
+}
+
+/// Time of a second view in that of direct rendering, the shortest runs of each.
+#[derive(Clone, Copy, Debug)]
+pub struct Time {
+    /// The ratio, at least 0.
+    pub ratio: f64,
+    /// How well it is known: a ratio of no more is no measurement.
+    pub noise: f64,
+}
+
+impl Time {
+    /// What `part` takes more than `rest`, by `whole`. Nothing takes less than no time.
+    fn of(part: Spell, rest: Option<Spell>, whole: Spell) -> Time {
+        let rest = rest.unwrap_or(Spell { shortest: Duration::ZERO, noise: Duration::ZERO });
+        let by_whole = |time: Duration| time.as_secs_f64() / whole.shortest.as_secs_f64();
+        Time {
+            ratio: by_whole(part.shortest.saturating_sub(rest.shortest)),
+            noise: by_whole(part.noise + rest.noise).max(0.01),
+        }
+    }
+
+    /// Whether it is more than noise.
+    pub fn is_measured(&self) -> bool {
+        self.ratio > self.noise
+    }
+}
+
+impl fmt::Display for Time {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_measured() {
+            return write!(f, "{:.2}", self.ratio);
+        }
+        // An upper bound is rounded up.
+        write!(f, "<{:.2}", (self.noise * 100.0).ceil() / 100.0)
+    }
 }
 
 /// Time that the rounds of one timing take together, about, if they are not very few.
@@ -130,7 +173,7 @@ pub fn compare(
     let start = Instant::now();
     let direct = job.direct();
     let rounds = ROUNDS_TIME.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6);
-    let rounds = rounds.clamp(7.0, 31.0) as usize;
+    let rounds = rounds.clamp(9.0, 31.0) as usize;
     let mut outcomes = Vec::new();
     for method in METHODS {
         tell(method);
@@ -154,7 +197,8 @@ pub fn compare(
                 };
                 let time = second_view_time(method, prepared, &direct[0], rounds);
                 let preparation = preparation_time(method, prepared);
-                Ok(Measured { work: pair.work, time, preparation, views, quality, file })
+                let Pair { work, counts, .. } = pair;
+                Ok(Measured { work, counts, time, preparation, views, quality, file })
             }
         };
         outcomes.push(Outcome { method: *method, result });
@@ -162,14 +206,20 @@ pub fn compare(
     Ok(outcomes)
 }
 
-/// Time of a method's second view over that of direct rendering, in one run.
-fn second_view_time(method: &Method, prepared: &Prepared, first: &Frame, rounds: usize) -> f64 {
-    let direct = || prepared.job().view(Eye::Right, &mut Unmetered);
+/// Time of a method's second view over that of direct rendering; all take turns.
+fn second_view_time(method: &Method, prepared: &Prepared, left: &Frame, rounds: usize) -> Time {
+    let mut direct = || drop(black_box(prepared.job().view(Eye::Right, &mut Unmetered)));
     match method.timed {
-        Timed::Second(second) => ratio(rounds, || second(prepared, first), direct).median,
+        Timed::Second(second) => {
+            let mut second = || drop(black_box(second(prepared, left)));
+            let [second, direct] = turns(rounds, [&mut second, &mut direct]);
+            Time::of(second, None, direct)
+        }
         Timed::Both { both, first } => {
-            let both = ratio(rounds, || both(prepared), direct).median;
-            both - ratio(rounds, || first(prepared), direct).median
+            let mut both = || drop(black_box(both(prepared)));
+            let mut first = || drop(black_box(first(prepared)));
+            let [both, first, direct] = turns(rounds, [&mut both, &mut first, &mut direct]);
+            Time::of(both, Some(first), direct)
         }
     }
 }
@@ -204,125 +254,4 @@ pub fn error_picture(frame: &Frame, direct: &Frame) -> RgbImage {
         });
     }
     errors
-}
-
-/// The outcomes as a table; a dash stands for what a method does not count.
-pub fn table(outcomes: &[Outcome]) -> String {
-    let mut table = comfy_table::Table::new();
-    table.load_preset(comfy_table::presets::UTF8_BORDERS_ONLY);
-    table.set_content_arrangement(comfy_table::ContentArrangement::Disabled);
-    table.set_header([
-        "",
-        "operations",
-        "pixels",
-        "beats",
-        "time",
-        "views",
-        "wrong polygon",
-        "ties",
-        "wrong colour",
-        "holes",
-        "PSNR",
-    ]);
-    let mut notes = String::new();
-    for Outcome { method, result } in outcomes {
-        let mut row = vec![method.name.to_string()];
-        match result {
-            Err(unsuited) => {
-                row.push("unsuited".into());
-                notes += &format!("\n{}: {unsuited}", method.name);
-            }
-            Ok(measured) => {
-                row.extend(cells(method, measured));
-                if let Some(preparation) = measured.preparation {
-                    let sum = measured.time + preparation;
-                    notes += &format!(
-                        "\n{}: making the tree takes {preparation:.2} more, {sum:.2} together",
-                        method.name
-                    );
-                }
-            }
-        }
-        table.add_row(row);
-    }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(comfy_table::CellAlignment::Right);
-    }
-    format!("{table}{notes}")
-}
-
-fn cells(method: &Method, measured: &Measured) -> [String; 10] {
-    let Measured { work, time, quality, .. } = measured;
-    let counted = |n: u64| if n == 0 { "–".into() } else { Grouped(n).to_string() };
-    let number = |n: usize| Grouped(n as u64).to_string();
-    let share = |n: usize| {
-        format!("{} ({:.2} %)", number(n), 100.0 * n as f64 / quality.pixels.max(1) as f64)
-    };
-    [
-        counted(work.arithmetic().all()),
-        counted(work.pixels()),
-        counted(work.beats),
-        format!("{time:.2}"),
-        method.judged.name().into(),
-        share(quality.ids - quality.ties),
-        number(quality.ties),
-        share(quality.colours),
-        number(quality.gaps),
-        quality.ratio(),
-    ]
-}
-
-/// A number with its thousands apart.
-pub struct Grouped(pub u64);
-
-impl fmt::Display for Grouped {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 < 1000 {
-            return write!(f, "{}", self.0);
-        }
-        write!(f, "{},{:03}", Grouped(self.0 / 1000), self.0 % 1000)
-    }
-}
-
-/// Counts with `null` for what a method does not count.
-fn counts(work: Value) -> Value {
-    match work {
-        Value::Object(fields) => fields.into_iter().map(|(k, v)| (k, counts(v))).collect(),
-        Value::Number(n) if n.as_u64() == Some(0) => Value::Null,
-        other => other,
-    }
-}
-
-/// A view, or both together, as JSON.
-fn quality_json(quality: &Quality) -> Value {
-    json!({
-        "pixels": quality.pixels,
-        "wrong_polygon": quality.ids - quality.ties,
-        "ties": quality.ties,
-        "wrong_colour": quality.colours,
-        "holes": quality.gaps,
-        "identical": quality.decibels.is_infinite(),
-        "psnr_db": quality.decibels.is_finite().then_some(quality.decibels),
-    })
-}
-
-/// The outcomes as JSON.
-pub fn json(outcomes: &[Outcome]) -> Value {
-    let one = |Outcome { method, result }: &Outcome| match result {
-        Err(unsuited) => json!({ "method": method.name, "unsuited": unsuited.to_string() }),
-        Ok(Measured { work, time, preparation, views, file, .. }) => json!({
-            "method": method.name,
-            "operations": counts(json!(work.arithmetic())),
-            "work": counts(json!(work)),
-            "time_ratio": time,
-            "preparation_time_ratio": preparation,
-            "time_ratio_with_preparation": preparation.map(|preparation| time + preparation),
-            "judged": method.judged.name(),
-            "left": quality_json(&views[0]),
-            "right": quality_json(&views[1]),
-            "both": quality_json(&Quality::together(*views)),
-            "file": file,
-        }),
-    };
-    outcomes.iter().map(one).collect()
 }

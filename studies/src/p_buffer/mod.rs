@@ -48,6 +48,13 @@ fn run(folder: &Path) -> Result<Report, StudyError> {
     })
 }
 
+const BOUND: &str =
+    "the publication prints no figure: the limit is this project's own, from its own \
+    measurements, so that a change for the worse is noticed";
+const FURNITURE: &str =
+    "the publication shows pictures and prints no figure; the share depends on what \
+    stands how near in the rooms: offices furnished otherwise gave 8.7 to 15.4 %";
+
 /// "1 room", "2 rooms".
 fn rooms(n: usize) -> String {
     format!("{} room{}", n + 1, if n == 0 { "" } else { "s" })
@@ -65,11 +72,19 @@ fn polygons(measured: &[Measured]) -> Table {
     Table { title: "Table 1: polygons and visible polygons".into(), rows: rows.collect() }
 }
 
+/// Says of a figure that is held to a limit where the limit comes from.
+fn bounded(row: Row) -> Row {
+    match row.check {
+        Check::Trend => row,
+        _ => row.note(BOUND),
+    }
+}
+
 fn work(measured: &[Measured]) -> Table {
     let last = &measured[ROOMS - 1];
     let row = |what: &str, view: usize, of: fn(&Measured, usize) -> u64, check: Check| {
         let growth = of(last, view) as f64 / of(&measured[0], view) as f64;
-        Row::new(format!("{what}, 15 rooms : 1 room"), growth, 2, check)
+        bounded(Row::new(format!("{what}, 15 rooms : 1 room"), growth, 2, check))
     };
     let polygons = |m: &Measured, view: usize| m.work[view].polygons;
     let tests = |m: &Measured, view: usize| m.work[view].depth_tests;
@@ -93,7 +108,7 @@ fn wrong(measured: &[Measured]) -> Table {
     let row = |what: &str, of: &dyn Fn(&Measured) -> f64, check: Check| {
         let [least, most] = range(measured, of);
         let least = Row::new(format!("{what}, least"), least, 2, Check::Trend).unit("%");
-        [least, Row::new(format!("{what}, most"), most, 2, check).unit("%")]
+        [least, bounded(Row::new(format!("{what}, most"), most, 2, check).unit("%"))]
     };
     let [least, _] = range(measured, |m| m.faults.percent(m.faults.wrong()) / m.wrong);
     let [_, misordered] = range(measured, |m| m.misordered as f64);
@@ -106,7 +121,8 @@ fn wrong(measured: &[Measured]) -> Table {
         row("of these something shows through", &faults(|m| m.faults.see_through), Check::Trend),
     ];
     let mut rows: Vec<Row> = rows.into_iter().flatten().collect();
-    rows.push(Row::new("warping : P-buffer, wrong pixels, least", least, 1, Check::AtLeast(5.0)));
+    let ratio = Row::new("warping : P-buffer, wrong pixels, least", least, 1, Check::AtLeast(5.0));
+    rows.push(bounded(ratio));
     let order = "pixels that overwriting in the right order and a depth test leave differently";
     rows.push(Row::new(order, misordered, 0, Check::Digits).expected(0.0));
     Table { title: "Figures 5 and 7, from the right to the left view".into(), rows }
@@ -122,11 +138,12 @@ fn moving(measured: &[Measured], walk: &Walk) -> Table {
             let [least, most] = range(measured, |m| m.moved[direction][method]);
             let name = what(name);
             rows.push(Row::new(format!("{name}, least"), least, 2, Check::Trend).unit("%"));
-            rows.push(Row::new(format!("{name}, most"), most, 2, check).unit("%"));
+            let most = Row::new(format!("{name}, most"), most, 2, check).unit("%");
+            rows.push(if method == 1 { most.note(FURNITURE) } else { bounded(most) });
         }
         let [least, _] = range(measured, |m| m.moved[direction][1] / m.moved[direction][0]);
         let name = what("warping : P-buffer, least");
-        rows.push(Row::new(name, least, 1, Check::AtLeast(5.0)));
+        rows.push(bounded(Row::new(name, least, 1, Check::AtLeast(5.0))));
     }
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
     let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
@@ -141,7 +158,8 @@ fn moving(measured: &[Measured], walk: &Walk) -> Table {
         row("walk: P-buffer of itself, after 20 frames", walk.chained[19], Check::Trend),
     ]);
     let ratio = mean(&walk.warping) / mean(&walk.p_buffer);
-    rows.push(Row::new("walk: warping : P-buffer, wrong pixels", ratio, 1, Check::AtLeast(5.0)));
+    let ratio = Row::new("walk: warping : P-buffer, wrong pixels", ratio, 1, Check::AtLeast(5.0));
+    rows.push(bounded(ratio));
     Table { title: "Figures 3, 5 and 7, a viewer who moves: wrong pixels".into(), rows }
 }
 
@@ -171,7 +189,7 @@ fn plots(folder: &Path, measured: &[Measured], walk: &Walk) -> Result<Vec<PathBu
             {
                 let columns: Vec<_> = columns[views.clone()].iter().collect();
                 let name = format!("{method}, {when}");
-                series.push(Series { name, points: scaled(&columns, unit) });
+                series.push(Series::new(name, scaled(&columns, unit)));
             }
         }
         let axes = ["thousand polygons", "multiples of one room's right view, full pipeline"];
@@ -179,9 +197,9 @@ fn plots(folder: &Path, measured: &[Measured], walk: &Walk) -> Result<Vec<PathBu
     }
     let frames = |values: &[f64]| (1..).zip(values).map(|(n, &y)| (f64::from(n), y)).collect();
     let series = [
-        Series { name: "warping".into(), points: frames(&walk.warping) },
-        Series { name: "P-buffer".into(), points: frames(&walk.p_buffer) },
-        Series { name: "P-buffer of itself".into(), points: frames(&walk.chained) },
+        Series::new("warping", frames(&walk.warping)),
+        Series::new("P-buffer", frames(&walk.p_buffer)),
+        Series::new("P-buffer of itself", frames(&walk.chained)),
     ];
     save("p_buffer_walk.svg", "A walk through 15 rooms", ["frame", "wrong pixels, %"], &series)?;
     Ok(files)

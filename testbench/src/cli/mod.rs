@@ -314,7 +314,12 @@ impl Common {
             CullChoice::Back => Cull::Back,
         };
         let options = scene::Options { cull, specular_threshold: settings.specular_threshold };
-        Ok(scene.geometry(&Formats::new(&settings.config), &options)?)
+        let geometry = scene.geometry(&Formats::new(&settings.config), &options)?;
+        if geometry.polygons.is_empty() {
+            let [near, far] = [scene.rig.near(), scene.rig.far()];
+            tell!("warning: nothing to draw: nothing of the scene can be seen at distances from {near} to {far}");
+        }
+        Ok(geometry)
     }
 
     /// The options as words of a command line.

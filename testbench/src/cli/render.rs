@@ -26,7 +26,7 @@ pub(super) struct RenderArgs {
     stereo: Vec<Composite>,
     /// Dots per inch that composites have in print [default of parallel, crossed and triplet: so
     /// that points at infinity are 2.5 inches apart]
-    #[arg(long, value_name = "N", value_parser = parse_dpi)]
+    #[arg(long, value_name = "N", value_parser = parse_dpi, requires = "stereo")]
     dpi: Option<f64>,
     #[command(flatten)]
     common: Common,
@@ -153,8 +153,5 @@ fn left_out(geometry: &Geometry) {
     let text = geometry.counts.to_string();
     if !text.is_empty() {
         say!("left out: {text}");
-    }
-    if geometry.polygons.is_empty() {
-        tell!("warning: nothing to draw: all of the scene is left out, or there is nothing in it");
     }
 }

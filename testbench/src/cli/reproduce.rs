@@ -56,7 +56,8 @@ pub(super) fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
     for row in reports.iter().flat_map(|report| report.differing()) {
         say!("DIFFERS {}", row.what);
     }
-    let Summary { holds, differs, trend } = Summary::of(&reports);
-    say!("{} figures: {holds} hold, {differs} differ, {trend} trend", holds + differs + trend);
+    let Summary { holds, differs, trend, quoted } = Summary::of(&reports);
+    let all = holds + differs + trend + quoted;
+    say!("{all} figures: {holds} hold, {differs} differ, {trend} trend, {quoted} quoted");
     Ok(if differs > 0 { MISMATCH } else { OK })
 }
