@@ -70,7 +70,9 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
         }));
     }
     // The longest first, so that none is left over at the end.
-    builds.sort_by_key(|(build, effort)| (effort.bound, !build.label.contains("full")));
+    builds.sort_by_key(|(build, effort)| {
+        (std::cmp::Reverse(effort.bound), !build.label.contains("full"))
+    });
     let spinner = Spinner::new();
     let proved: Result<Vec<Proved>, Failure> = builds
         .par_iter()
