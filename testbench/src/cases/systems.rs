@@ -381,8 +381,8 @@ const HEIGHTS: [[i32; 3]; 12] = [
 fn stretched(eye: Eye, stretch: f64, heights: [i32; 3], turn: bool, f: &Formats) -> Polygon {
     let pixel = 1 << f.subpixel_bits;
     // With ratio 1 the left eye is primary unless its view is narrower, by so little that it is still 1.
-    let same = stretch == 1.0;
-    let (width, less) = if same { (160, i32::from(eye == Eye::Right)) } else { (6, 0) };
+    let narrower = stretch == 1.0 && eye == Eye::Right;
+    let (width, less) = if narrower { (160, 1) } else { (3, 0) };
     // The third corner is above or below one of the others.
     let far = [false, true, heights[2] == heights[0]];
     let vertices = (0..3).map(|n| {
