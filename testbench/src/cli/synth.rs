@@ -146,10 +146,6 @@ fn print_table(entries: &[Entry], tech: Tech) {
     say!("{table}\n");
 }
 
-fn root() -> Result<PathBuf, Failure> {
-    workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
-}
-
 fn write_record(entries: &[Entry]) -> Result<(), Failure> {
     let root = root()?;
     // The first one has nothing before it.

@@ -160,10 +160,13 @@ impl Synthesiser {
 }
 
 /// A target with its parameters and all its Verilog.
-struct Design<'a> {
-    interface: &'a Interface,
-    sources: &'a Sources,
-    cache: &'a Path,
+pub(crate) struct Design<'a> {
+    /// Module and parameters.
+    pub interface: &'a Interface,
+    /// Everything that the module can use.
+    pub sources: &'a Sources,
+    /// Where working folders are made.
+    pub cache: &'a Path,
 }
 
 impl Design<'_> {
@@ -172,7 +175,7 @@ impl Design<'_> {
     }
 
     /// Yosys commands that read the Verilog and set the parameters.
-    fn read_commands(&self) -> String {
+    pub fn read_commands(&self) -> String {
         let files = self.sources.keys().filter(|name| name.ends_with(".v"));
         let files: String = files.map(|name| format!(" {name}")).collect();
         let parameters = &self.interface.parameters;
@@ -209,13 +212,14 @@ impl Design<'_> {
 }
 
 /// A temporary folder with the sources of a design.
-struct Folder {
+pub(crate) struct Folder {
     folder: Scratch,
     module: &'static str,
 }
 
 impl Folder {
-    fn of(design: &Design<'_>) -> Result<Folder, SynthError> {
+    /// Made in the cache of the design.
+    pub fn of(design: &Design<'_>) -> Result<Folder, SynthError> {
         let cache = design.cache;
         let at = |source| WriteError { file: cache.to_owned(), source };
         fs::create_dir_all(cache).map_err(at)?;
@@ -226,17 +230,24 @@ impl Folder {
         Ok(folder)
     }
 
-    fn write(&self, name: &str, content: &[u8]) -> Result<(), SynthError> {
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Writes a file.
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<(), SynthError> {
         Ok(write_file(&self.folder.path().join(name), content)?)
     }
 
-    fn read(&self, name: &str) -> Result<String, SynthError> {
+    /// Reads a file.
+    pub fn read(&self, name: &str) -> Result<String, SynthError> {
         let path = self.folder.path().join(name);
         fs::read_to_string(&path).map_err(|source| SynthError::Read { path, source })
     }
 
     /// A command of a tool that works in this folder.
-    fn command(&self, tool: &Found) -> Command {
+    pub fn command(&self, tool: &Found) -> Command {
         let mut command = Command::new(&tool.program);
         command.current_dir(self.folder.path());
         // Tools from PyPI compile themselves at their first call and keep that here.
@@ -247,7 +258,7 @@ impl Folder {
     }
 
     /// Runs a command; what it said, where it failed, becomes the error.
-    fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<(), SynthError> {
+    pub fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<(), SynthError> {
         let output = command
             .output()
             .map_err(|source| SynthError::Read { path: command.get_program().into(), source })?;
@@ -259,7 +270,7 @@ impl Folder {
     }
 
     /// The error of a tool that said `text`.
-    fn failed(&self, tool: &'static Tool, text: &str) -> SynthError {
+    pub fn failed(&self, tool: &'static Tool, text: &str) -> SynthError {
         let all: Vec<&str> = text.lines().collect();
         let first = all.iter().position(|line| line.contains("ERROR")).unwrap_or(0);
         let lines = all[first..].iter().take(8).copied().collect::<Vec<_>>().join("\n");
