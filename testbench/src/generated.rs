@@ -3,6 +3,7 @@
 
 use crate::baseline::{self, Areas, Rows};
 use crate::cli;
+use crate::mutation::record::Scores;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::{Record, RecordError};
 use std::fmt::Write;
@@ -27,6 +28,8 @@ pub enum Generated {
     Page(Target),
     /// `README.md`: what all of them cost.
     Readme,
+    /// `docs/mutation.md`: the scores.
+    Mutation,
     /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
     Theory,
 }
@@ -60,7 +63,8 @@ impl Generated {
     /// All generated files.
     pub fn all() -> impl Iterator<Item = Generated> {
         let pages = Target::ALL.into_iter().map(Generated::Page);
-        [Generated::Header].into_iter().chain(pages).chain([Generated::Readme, Generated::Theory])
+        let others = [Generated::Readme, Generated::Mutation, Generated::Theory];
+        [Generated::Header].into_iter().chain(pages).chain(others)
     }
 
     /// Path below the workspace.
@@ -69,6 +73,7 @@ impl Generated {
             Generated::Header => "rtl/sam_formats.vh".into(),
             Generated::Page(target) => format!("docs/{}.md", target.name()),
             Generated::Readme => "README.md".into(),
+            Generated::Mutation => "docs/mutation.md".into(),
             Generated::Theory => "docs/theory.md".into(),
         }
     }
@@ -88,6 +93,9 @@ impl Generated {
             }
             Generated::Readme => {
                 self.between(present, "synthesis", &Record::read(workspace)?.overview())
+            }
+            Generated::Mutation => {
+                self.between(present, "scores", &Scores::read(workspace)?.table())
             }
             Generated::Theory => {
                 let text = self.between(present, "cost", &cost_table())?;

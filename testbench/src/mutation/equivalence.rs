@@ -18,7 +18,7 @@ const SECONDS: u32 = 60;
 
 /// What is known of a mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Verdict {
+pub enum Verdict {
     /// No beats show a difference.
     Equal,
     /// Some beats do.

@@ -11,13 +11,13 @@ mod equivalence;
 mod netlist;
 pub mod record;
 
+pub use equivalence::Verdict;
 pub use netlist::Mutant;
 
 use crate::cases::{self, Case};
 use crate::regression::{batches, directed_stalls, run_case, stalls_of, RegressionError, Setting};
 use crate::synth::SynthError;
 use crate::{Builder, Library, Spec, Stalls};
-use equivalence::Verdict;
 use netlist::Netlist;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -138,16 +138,22 @@ impl Mutated {
     ) -> Result<Vec<Option<String>>, MutationError> {
         let mut killed = vec![None; self.mutants().len()];
         for run in runs {
-            if let Some(what) = self.fault(&run, 0)? {
+            let Run { case, seed, stalls } = run;
+            let setting =
+                Setting { library: &self.library, seed, stalls, latency: None, trace: None };
+            if let Some(what) = fault(&setting, &mut case.clone(), 0)? {
                 let target = self.target.name();
-                return Err(MutationError::Unsound { target, case: run.case.name, what });
+                return Err(MutationError::Unsound { target, case: case.name, what });
             }
-            killed.par_iter_mut().enumerate().try_for_each(|(index, killed)| {
-                if killed.is_none() && self.fault(&run, index as u64 + 1)?.is_some() {
-                    *killed = Some(run.case.name.clone());
-                }
-                Ok::<(), MutationError>(())
-            })?;
+            let left = killed.par_iter_mut().enumerate().filter(|(_, killed)| killed.is_none());
+            left.try_for_each_init(
+                || case.clone(),
+                |copy, (index, killed)| {
+                    let wrong = fault(&setting, copy, index as u64 + 1)?;
+                    *killed = wrong.map(|_| case.name.clone());
+                    Ok::<(), MutationError>(())
+                },
+            )?;
             if killed.iter().all(Option::is_some) {
                 break;
             }
@@ -155,14 +161,9 @@ impl Mutated {
         Ok(killed)
     }
 
-    /// What is wrong in a run of the mutant of that number.
-    fn fault(&self, run: &Run, number: u64) -> Result<Option<String>, RegressionError> {
-        let Run { seed, stalls, .. } = *run;
-        let mut case = run.case.clone();
-        case.statics.push(number);
-        let setting = Setting { library: &self.library, seed, stalls, latency: None, trace: None };
-        let ran = run_case(&setting, &case)?;
-        Ok((!ran.passed()).then(|| format!("{}; {} in memory", ran.outcome, ran.memory.len())))
+    /// Looks for beats that tell a mutant from its target.
+    pub fn compare(&self, mutant: &Mutant) -> Result<Verdict, MutationError> {
+        Ok(self.netlist.compare(mutant)?)
     }
 
     /// Runs every mutant, proves what it can of those left, and looks up the rest with `reason`.
@@ -176,7 +177,7 @@ impl Mutated {
             let fate = match (killed, reason(mutant)) {
                 (Some(case), _) => Fate::Killed(case),
                 (None, Some(reason)) => Fate::Reviewed(reason),
-                (None, None) => match self.netlist.compare(mutant)? {
+                (None, None) => match self.compare(mutant)? {
                     Verdict::Equal => Fate::Equivalent,
                     Verdict::Different => Fate::Missed,
                     Verdict::Open => Fate::Undecided,
@@ -186,4 +187,17 @@ impl Mutated {
         });
         tested.collect()
     }
+}
+
+/// What is wrong in a run of the mutant of that number.
+fn fault(
+    setting: &Setting,
+    case: &mut Case,
+    number: u64,
+) -> Result<Option<String>, RegressionError> {
+    case.statics.push(number);
+    let ran = run_case(setting, case);
+    case.statics.pop();
+    let ran = ran?;
+    Ok((!ran.passed()).then(|| format!("{}; {} faults in memory", ran.outcome, ran.memory.len())))
 }
