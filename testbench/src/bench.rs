@@ -14,6 +14,8 @@ use wheatstone_golden::interface::Direction;
 /// cycles count on from the first reset.
 pub struct Bench {
     model: Model,
+    /// Whether it has not been reset yet.
+    fresh: bool,
     cycle: u64,
     random: fastrand::Rng,
     junk: Box<[Words; JUNK]>,
@@ -22,20 +24,19 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// A new instance of a model, after a reset. The seed chooses the state it starts from and
-    /// the length of the reset, 1 to 4 clocks.
+    /// A new instance of a model. Its first run resets it, after the static inputs are set. The seed
+    /// chooses the state it starts from and the length of the reset, 1 to 4 clocks.
     pub fn new(library: &Library, seed: u64) -> Result<Bench, LoadError> {
         let model = Model::new(library, seed)?;
         let mut random = fastrand::Rng::with_seed(seed);
         let mut junk = Box::new([[0; WORDS]; JUNK]);
         junk.iter_mut().flatten().for_each(|word| *word = random.u64(..));
-        let mut bench = Bench { model, cycle: 0, random, junk, gates: Default::default() };
-        bench.reset();
-        Ok(bench)
+        Ok(Bench { model, fresh: true, cycle: 0, random, junk, gates: Default::default() })
     }
 
     /// Resets the model, wherever it is.
     pub fn reset(&mut self) {
+        self.fresh = false;
         let clocks = self.random.u32(1..=4);
         self.model.reset(clocks);
     }
@@ -99,6 +100,9 @@ impl Bench {
         job.check(interface, library.probes(), layout, responder.is_some())?;
         for (index, &value) in job.statics.iter().enumerate() {
             self.model.poke(layout.static_input(index), value);
+        }
+        if self.fresh {
+            self.reset();
         }
         self.prepare(job.stalls);
         let start = self.cycle;

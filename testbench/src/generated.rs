@@ -3,6 +3,7 @@
 
 use crate::baseline::{self, Areas, Rows};
 use crate::cli;
+use crate::mutation::record::Scores;
 use crate::prove::record;
 use crate::settings::{SettingError, Settings};
 use crate::synth::record::{Record, RecordError};
@@ -31,6 +32,8 @@ pub enum Generated {
     Formal,
     /// `README.md`: what all of them cost.
     Readme,
+    /// `docs/mutation.md`: the scores.
+    Mutation,
     /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
     Theory,
     /// `docs/verification.md`: what is covered, which packs replay where.
@@ -75,6 +78,7 @@ impl Generated {
         let rest = [
             Generated::Formal,
             Generated::Readme,
+            Generated::Mutation,
             Generated::Theory,
             Generated::Verification,
         ];
@@ -88,6 +92,7 @@ impl Generated {
             Generated::Page(target) => format!("docs/{}.md", target.name()),
             Generated::Formal => "docs/formal.md".into(),
             Generated::Readme => "README.md".into(),
+            Generated::Mutation => "docs/mutation.md".into(),
             Generated::Theory => "docs/theory.md".into(),
             Generated::Verification => "docs/verification.md".into(),
         }
@@ -113,6 +118,9 @@ impl Generated {
             }
             Generated::Readme => {
                 self.between(present, "synthesis", &Record::read(workspace)?.overview())
+            }
+            Generated::Mutation => {
+                self.between(present, "scores", &Scores::read(workspace)?.table())
             }
             Generated::Theory => {
                 let text = self.between(present, "cost", &cost_table())?;

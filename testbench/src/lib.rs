@@ -5,7 +5,7 @@
 //! expected beats for the outputs, stall patterns. The [`Outcome`] is a pass with its counts,
 //! the first difference, or a model that hangs. [`cases`] says what the targets are fed;
 //! [`memory`] stands beside a system; [`pack`] writes and checks vector packs; [`waves`] makes
-//! views of waveforms; [`synth`] measures area and timing, [`baseline`] clocks beside two monocular passes; [`tools`] finds the programs that all this needs; [`generated`] has the files
+//! views of waveforms; [`synth`] measures area and timing, [`mutation`] what the regression would catch, [`baseline`] clocks beside two monocular passes; [`tools`] finds the programs that all this needs; [`generated`] has the files
 //! that are made from the definitions of the golden model.
 
 pub mod baseline;
@@ -21,6 +21,7 @@ mod job;
 mod layout;
 pub mod memory;
 mod model;
+pub mod mutation;
 mod outcome;
 pub mod pack;
 mod ports;

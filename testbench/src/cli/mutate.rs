@@ -1,0 +1,157 @@
+//! `wheatstone mutate`.
+
+use super::*;
+use crate::mutation::record::{Reviews, Score, Scores, FILE, HEADINGS, LEAST_SCORE, REVIEWED_FILE};
+use crate::mutation::{regression, Fate, Mutated, Tested, COUNT, SEED};
+use crate::synth::Synthesiser;
+use wheatstone_golden::picture::write_file;
+
+/// Most mutants of a target: the netlist chooses by 16 bits.
+const MOST: i64 = 60_000;
+
+#[derive(Debug, Args)]
+pub(super) struct MutateArgs {
+    /// Units and systems (see `wheatstone list`); none means all units and the minimal system
+    #[arg(value_name = "TARGET", value_parser = parse_target)]
+    targets: Vec<Target>,
+    /// Mutants of each target
+    #[arg(long, value_name = "N", default_value_t = COUNT, value_parser = clap::value_parser!(u32).range(1..=MOST))]
+    count: u32,
+    /// Seed of the choice of mutants
+    #[arg(long, default_value_t = SEED)]
+    seed: u64,
+    /// Number of random beats of each target [default: as in the default regression]
+    #[arg(long)]
+    beats: Option<u64>,
+    /// Named set of build parameters
+    #[arg(long, default_value = "default", value_name = "default|paper|full")]
+    config: String,
+    /// Change one parameter (see `wheatstone list`); may be repeated
+    #[arg(long = "param", value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// Write all mutants, and what became of them, as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the scores into the record; `wheatstone generate` then renews the table
+    #[arg(long, conflicts_with_all = ["beats", "rtl"])]
+    record: bool,
+    /// Folder of the Verilog [default: rtl of this workspace]
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+}
+
+impl MutateArgs {
+    fn targets(&self) -> Vec<Target> {
+        let usual =
+            |target: &Target| !matches!(target, Target::Mono | Target::Hybrid | Target::Stereo);
+        match &self.targets[..] {
+            [] => Target::ALL.into_iter().filter(usual).collect(),
+            some => some.to_vec(),
+        }
+    }
+
+    /// The configuration, with the parameters that were changed.
+    fn label(&self) -> String {
+        let changed = self.parameters.iter().map(|text| format!(" {text}"));
+        format!("{}{}", self.config, changed.collect::<String>())
+    }
+}
+
+/// What was found of a target.
+struct Found {
+    target: Target,
+    score: Score,
+    tested: Vec<Tested>,
+    stale: Vec<String>,
+}
+
+pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
+    let root = root()?;
+    let reviews = Reviews::read(&root)?;
+    let builder = builder(is_terminal())?;
+    let spinner = Spinner::new();
+    let found = args.targets().into_iter().map(|target| {
+        let found = test(args, target, &builder, &reviews)?;
+        let [mutants, .., score] = found.score.cells();
+        spinner.tell(target.name(), &format!("{score} of {mutants} mutants"));
+        Ok(found)
+    });
+    let found = found.collect::<Result<Vec<Found>, Failure>>()?;
+    drop(spinner);
+    print(&found);
+    if let Some(file) = &args.json {
+        let targets = found
+            .iter()
+            .map(|found| serde_json::json!({ "score": found.score, "mutants": found.tested }));
+        let content = serde_json::json!({
+            "format": "wheatstone-mutation/1",
+            "targets": targets.collect::<Vec<_>>(),
+        });
+        write_file(file, format!("{content:#}\n").as_bytes())?;
+    }
+    if args.record {
+        // The first one has nothing before it.
+        let mut scores = match root.join(FILE).exists() {
+            true => Scores::read(&root)?,
+            false => Scores::default(),
+        };
+        let new: Vec<Score> = found.iter().map(|found| found.score.clone()).collect();
+        scores.update(&new);
+        scores.write(&root)?;
+        say!("{FILE}: written; now run: wheatstone generate");
+    }
+    let good = found.iter().all(|found| found.score.passes() && found.stale.is_empty());
+    Ok(if good { OK } else { MISMATCH })
+}
+
+fn test(
+    args: &MutateArgs,
+    target: Target,
+    builder: &Builder,
+    reviews: &Reviews,
+) -> Result<Found, Failure> {
+    let config = Settings::new(&args.config, &args.parameters)?.config;
+    let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
+    let (label, choice) = (args.label(), (args.count, args.seed));
+    let mutated =
+        Mutated::new(builder, [rtl_folder(&args.rtl)?, cache], (target, &config), choice)?;
+    let runs = regression(target, &config, args.beats);
+    let tested = mutated.test(runs, |mutant| reviews.reason(target, &label, mutant))?;
+    let stale = reviews.stale(target, &label, choice, &tested);
+    Ok(Found {
+        target,
+        score: Score::new(target, &label, args.seed, &tested),
+        stale: stale.iter().map(|review| review.mutant.clone()).collect(),
+        tested,
+    })
+}
+
+fn print(found: &[Found]) {
+    let mut table = comfy_table::Table::new();
+    table.load_preset(comfy_table::presets::NOTHING);
+    table.set_header(["", "configuration"].into_iter().chain(HEADINGS));
+    for Found { score, .. } in found {
+        let names = [score.target.clone(), score.config.clone()];
+        table.add_row(names.into_iter().chain(score.cells()));
+    }
+    for column in table.column_iter_mut().skip(2) {
+        column.set_cell_alignment(comfy_table::CellAlignment::Right);
+    }
+    say!("{table}\n");
+    for Found { target, tested, stale, score } in found {
+        let name = target.name();
+        for Tested { mutant, fate } in tested {
+            match fate {
+                Fate::Missed => say!("MISSED {name} {mutant}: some beats show it, none here did"),
+                Fate::Undecided => say!("UNDECIDED {name} {mutant}"),
+                Fate::Killed(_) | Fate::Equivalent | Fate::Reviewed(_) => {}
+            }
+        }
+        for mutant in stale {
+            say!("STALE {name} {mutant}: in {REVIEWED_FILE}, but no mutant left has this name");
+        }
+        if !score.passes() {
+            say!("{name}: below {:.0} %", 100.0 * LEAST_SCORE);
+        }
+    }
+}

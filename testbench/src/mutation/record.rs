@@ -1,0 +1,232 @@
+//! The committed files about mutants: the scores, with the table that is made of them, and the list of
+//! those that were reviewed.
+
+use super::{Fate, Mutant, Tested, COUNT, SEED};
+use crate::synth::record::{read_record, RecordError};
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+use std::path::Path;
+use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::targets::Target;
+
+/// Where the scores are in the workspace.
+pub const FILE: &str = "synth/mutation.json";
+/// Where the reviewed mutants are in the workspace.
+pub const REVIEWED_FILE: &str = "synth/mutants_reviewed.json";
+
+/// The least share of mutants that must be killed.
+pub const LEAST_SCORE: f64 = 0.95;
+
+/// The score of a target in a configuration.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Score {
+    /// The target's name.
+    pub target: String,
+    /// The configuration, with the parameters that were changed.
+    pub config: String,
+    /// Seed of the choice of mutants.
+    pub seed: u64,
+    /// Mutants killed.
+    pub killed: usize,
+    /// Mutants proved equivalent.
+    pub equivalent: usize,
+    /// Mutants reviewed and found equivalent.
+    pub reviewed: usize,
+    /// Mutants left.
+    pub survived: usize,
+}
+
+impl Score {
+    /// Counts the mutants of a target.
+    pub fn new(target: Target, config: &str, seed: u64, tested: &[Tested]) -> Score {
+        let mut score = Score {
+            target: target.name().into(),
+            config: config.into(),
+            seed,
+            killed: 0,
+            equivalent: 0,
+            reviewed: 0,
+            survived: 0,
+        };
+        for Tested { fate, .. } in tested {
+            *match fate {
+                Fate::Killed(_) => &mut score.killed,
+                Fate::Equivalent => &mut score.equivalent,
+                Fate::Reviewed(_) => &mut score.reviewed,
+                Fate::Missed | Fate::Undecided => &mut score.survived,
+            } += 1;
+        }
+        score
+    }
+
+    /// All mutants.
+    pub fn mutants(&self) -> usize {
+        self.killed + self.equivalent + self.reviewed + self.survived
+    }
+
+    /// The share of mutants killed, of those that are not equivalent.
+    pub fn share(&self) -> f64 {
+        self.killed as f64 / (self.killed + self.survived).max(1) as f64
+    }
+
+    /// Whether it is high enough.
+    pub fn passes(&self) -> bool {
+        self.share() >= LEAST_SCORE
+    }
+
+    /// The counts and the score, as tables show them.
+    pub fn cells(&self) -> [String; 6] {
+        let counts = [self.mutants(), self.killed, self.equivalent, self.reviewed, self.survived];
+        let [mutants, killed, equivalent, reviewed, survived] = counts.map(|n| n.to_string());
+        // Rounded down: 100 % is all of them.
+        let score = format!("{:.1} %", (1000.0 * self.share()).floor() / 10.0);
+        [mutants, killed, equivalent, reviewed, survived, score]
+    }
+}
+
+/// Headings of [`Score::cells`].
+pub const HEADINGS: [&str; 6] =
+    ["mutants", "killed", "proved equivalent", "reviewed equivalent", "survived", "score"];
+
+/// All scores, ordered by target.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Scores(Vec<Score>);
+
+impl Scores {
+    /// The scores of a workspace.
+    pub fn read(workspace: &Path) -> Result<Scores, RecordError> {
+        read_record(workspace, FILE, "wheatstone mutate --record")
+    }
+
+    /// Writes them, a line each.
+    pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
+        let lines = self.0.iter().map(|score| serde_json::to_string(score).unwrap_or_default());
+        let text = format!("[\n{}\n]\n", lines.collect::<Vec<_>>().join(",\n"));
+        write_file(&workspace.join(FILE), text.as_bytes())
+    }
+
+    /// Puts scores in the place of older ones.
+    pub fn update(&mut self, scores: &[Score]) {
+        let is_new = |old: &Score| {
+            scores.iter().any(|new| (&old.target, &old.config) == (&new.target, &new.config))
+        };
+        self.0.retain(|old| !is_new(old));
+        self.0.extend_from_slice(scores);
+        let place = |score: &Score| Target::ALL.iter().position(|t| t.name() == score.target);
+        self.0.sort_by_key(place);
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &[Score] {
+        &self.0
+    }
+
+    /// The table of the documentation.
+    pub fn table(&self) -> String {
+        let mut text =
+            format!("\n| | configuration | {} |\n|{}\n", HEADINGS.join(" | "), " --- |".repeat(8));
+        for score in &self.0 {
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "| [{0}]({0}.md) | `{1}` | {2} |",
+                score.target,
+                score.config,
+                score.cells().join(" | ")
+            );
+        }
+        text
+    }
+}
+
+/// A mutant that somebody has looked at and that no permitted stimulus shows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Review {
+    /// The target's name.
+    pub target: String,
+    /// The configuration.
+    pub config: String,
+    /// The mutant, as it is told.
+    pub mutant: String,
+    /// Why nothing shows it.
+    pub reason: String,
+}
+
+/// The reviewed mutants.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Reviews(pub Vec<Review>);
+
+impl Reviews {
+    /// Those of a workspace.
+    pub fn read(workspace: &Path) -> Result<Reviews, RecordError> {
+        read_record(workspace, REVIEWED_FILE, "hand: a list of target, config, mutant and reason")
+    }
+
+    fn of<'a>(&'a self, target: Target, config: &'a str) -> impl Iterator<Item = &'a Review> {
+        self.0.iter().filter(move |r| r.target == target.name() && r.config == config)
+    }
+
+    /// Why nothing shows a mutant, if it is here.
+    pub fn reason(&self, target: Target, config: &str, mutant: &Mutant) -> Option<String> {
+        let told = mutant.to_string();
+        self.of(target, config).find(|r| r.mutant == told).map(|r| r.reason.clone())
+    }
+
+    /// Entries of a target that no longer fit: of those mutants that the list is about, none is so
+    /// called, or it is killed. With another choice of mutants nothing is known.
+    pub fn stale<'a>(
+        &'a self,
+        target: Target,
+        config: &'a str,
+        (count, seed): (u32, u64),
+        tested: &[Tested],
+    ) -> Vec<&'a Review> {
+        let fits = |review: &Review| {
+            let mut same = tested.iter().filter(|t| t.mutant.to_string() == review.mutant);
+            same.any(|t| matches!(t.fate, Fate::Reviewed(_)))
+        };
+        let usual = (count, seed) == (COUNT, SEED);
+        self.of(target, config).filter(|review| usual && !fits(review)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tested(number: u32, fate: Fate) -> Tested {
+        let change = format!("-mode inv -module m -cell c -port Y -portbit {number}");
+        Tested { mutant: Mutant { change, place: "m.v:1".into() }, fate }
+    }
+
+    #[test]
+    fn equivalent_mutants_do_not_count() {
+        let killed = (0..95).map(|n| tested(n, Fate::Killed("random".into())));
+        let rest = [Fate::Equivalent, Fate::Reviewed("why".into()), Fate::Missed, Fate::Undecided];
+        let mut all: Vec<Tested> = killed.chain(rest.map(|fate| tested(0, fate))).collect();
+        let score = |all: &[Tested]| Score::new(Target::Display, "default", SEED, all);
+        assert_eq!(score(&all).cells(), ["99", "95", "1", "1", "2", "97.9 %"]);
+        all.extend((0..4).map(|n| tested(n, Fate::Missed)));
+        assert_eq!((score(&all).share(), score(&all).passes()), (95.0 / 101.0, false));
+    }
+
+    #[test]
+    fn an_entry_that_no_longer_fits_is_stale() {
+        let review = |mutant: &Mutant| Review {
+            target: "display".into(),
+            config: "default".into(),
+            mutant: mutant.to_string(),
+            reason: "why".into(),
+        };
+        let [one, two, gone] = [1, 2, 3].map(|n| tested(n, Fate::Missed).mutant);
+        let reviews = Reviews([&one, &two, &gone].map(review).to_vec());
+        let reason = |mutant| reviews.reason(Target::Display, "default", mutant);
+        assert_eq!(reason(&one).as_deref(), Some("why"));
+        assert_eq!(reviews.reason(Target::Display, "paper", &one), None);
+        let all = [tested(1, Fate::Reviewed("why".into())), tested(2, Fate::Killed("x".into()))];
+        let stale = |seed| reviews.stale(Target::Display, "default", (COUNT, seed), &all);
+        assert_eq!(stale(SEED), [&reviews.0[1], &reviews.0[2]]);
+        assert!(stale(SEED + 1).is_empty());
+    }
+}
