@@ -95,9 +95,12 @@ impl Effort {
 /// Seconds after which a prover is stopped.
 const LIMIT: u32 = 150;
 
+/// Module, label and parameters of a build.
+type Variant = (&'static str, &'static str, &'static [(&'static str, u32)]);
+
 /// Builds beside those of the named configurations: narrow ones, where wide ones would take too long,
 /// and ones that the systems use.
-const VARIANTS: [(&str, &str, &[(&str, u32)]); 7] = [
+const VARIANTS: [Variant; 7] = [
     ("filter_division", "three terms", &[("FILTER_TERMS", 3)]),
     ("edge_interpolator", "4 bits", &[("BITS", 4), ("SLOPE_BITS", 3), ("TILT", 1)]),
     ("edge_interpolator", "depth", &[("BITS", 43), ("SLOPE_BITS", 43), ("TILT", 0)]),
