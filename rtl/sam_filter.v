@@ -62,7 +62,7 @@ module sam_filter #(
     generate
         if (FILTER_TERMS == 0) begin : g_reciprocal
             localparam B = `SAM_RECIPROCAL_BITS;
-            localparam [32*B-1:0] OF_ONE_MORE = `SAM_RECIPROCAL >> B;
+            localparam [32*B-1:0] RECIPROCAL = `SAM_RECIPROCAL;
             // Looked up while the sum is formed, as the multiplication alone fills a clock, and from
             // the count so far, as the next one comes late.
             reg  [17:0] factor_q;
@@ -70,7 +70,7 @@ module sam_filter #(
 
             always @(posedge clk_i) begin
                 if (accept & (beat_first_i | add)) begin
-                    factor_q <= to_one ? 18'h3ffff : OF_ONE_MORE[count_q*B +: 18];
+                    factor_q <= to_one ? 18'h3ffff : RECIPROCAL[(count_q + 1)*B +: 18];
                 end
             end
             assign factor = factor_q;
