@@ -38,7 +38,7 @@ impl Bench {
     pub fn reset(&mut self) {
         self.fresh = false;
         let clocks = self.random.u32(1..=4);
-        self.model.reset(clocks);
+        self.model.reset(clocks, || self.random.u64(..));
     }
 
     /// The model.

@@ -290,24 +290,29 @@ impl Model {
         unsafe { (self.library.loaded.api.eval)(self.handle.as_ptr()) }
     }
 
-    /// Holds the reset for some clocks, with no stream driven.
-    pub(crate) fn reset(&mut self, clocks: u32) {
+    /// Holds the reset for some clocks, with all streams driven by `random`, as by a neighbour that is
+    /// not in reset. The clock is left high: the next cycle begins without an edge of its own, so the
+    /// first beats may come on the clock after the reset.
+    pub(crate) fn reset(&mut self, clocks: u32, mut random: impl FnMut() -> u64) {
+        let streams = self.library.layout().streams.clone();
         self.poke(RESET, 1);
-        for stream in 0..self.library.layout().streams.len() {
-            let driven = self.library.layout().streams[stream].driven();
-            self.poke(driven, 0);
-        }
         for clock in 0..clocks {
-            for level in [0, 1] {
-                self.poke(CLOCK, level);
-                self.eval();
+            self.poke(CLOCK, 0);
+            for stream in &streams {
+                self.poke(stream.driven(), random());
+                let fields = 0..stream.width;
+                let fields = fields.filter(|_| stream.direction == Direction::Input);
+                fields.for_each(|field| self.poke(stream.field(field), random()));
             }
+            self.eval();
+            self.poke(CLOCK, 1);
+            self.eval();
             if clock == 0 {
                 self.forget_start();
             }
         }
         self.poke(RESET, 0);
-        self.poke(CLOCK, 0);
+        streams.iter().for_each(|stream| self.poke(stream.driven(), 0));
         self.eval();
     }
 
