@@ -84,19 +84,28 @@ module sam_coverage_edge #(
     genvar f_k;
     generate
         for (f_k = 0; f_k < 16; f_k = f_k + 1) begin : g_f_sample
-            wire signed [V-1:0] f_half   = f_here + (f_k % 4 - 1) * f_a + (f_k / 4 - 1) * f_b;
+            wire signed [V-1:0] f_half = f_here + (f_k % 4 - 1) * f_a + (f_k / 4 - 1) * f_b;
             assign f_mask[f_k] = f_half >= 0;
         end
     endgenerate
     always @* begin
-        // Sample k of the upper row is covered where 8 E + low + (2k - 3) a - 3 b is not negative,
-        p_row0: assert (mask_o[3:0] == f_mask[3:0]);
-        // of the second row where 8 E + low + (2k - 3) a - b is not,
-        p_row1: assert (mask_o[7:4] == f_mask[7:4]);
-        // of the third row where 8 E + low + (2k - 3) a + b is not,
-        p_row2: assert (mask_o[11:8] == f_mask[11:8]);
-        // and of the lower row where 8 E + low + (2k - 3) a + 3 b is not.
-        p_row3: assert (mask_o[15:12] == f_mask[15:12]);
+        // Sample k + 4 l is covered where 8 E + low + (2k - 3) a + (2l - 3) b is not negative.
+        p_samples__0: assert (mask_o[0] == f_mask[0]);
+        p_samples__1: assert (mask_o[1] == f_mask[1]);
+        p_samples__2: assert (mask_o[2] == f_mask[2]);
+        p_samples__3: assert (mask_o[3] == f_mask[3]);
+        p_samples__4: assert (mask_o[4] == f_mask[4]);
+        p_samples__5: assert (mask_o[5] == f_mask[5]);
+        p_samples__6: assert (mask_o[6] == f_mask[6]);
+        p_samples__7: assert (mask_o[7] == f_mask[7]);
+        p_samples__8: assert (mask_o[8] == f_mask[8]);
+        p_samples__9: assert (mask_o[9] == f_mask[9]);
+        p_samples__10: assert (mask_o[10] == f_mask[10]);
+        p_samples__11: assert (mask_o[11] == f_mask[11]);
+        p_samples__12: assert (mask_o[12] == f_mask[12]);
+        p_samples__13: assert (mask_o[13] == f_mask[13]);
+        p_samples__14: assert (mask_o[14] == f_mask[14]);
+        p_samples__15: assert (mask_o[15] == f_mask[15]);
     end
 `endif
 endmodule

@@ -288,9 +288,9 @@ module sam_minimal #(
     reg [2:0] f_waited;
     wire f_eager = left_ready_i & right_ready_i & beat_valid_i & (setup_valid_i | beat_op_i != `SAM_OP_LOAD);
     always @(posedge clk_i) f_waited <= rst_i | ~f_eager | beat_ready_o ? 0 : f_waited + 1;
-    // Primary pixels of one colour, whichever, that can be drawn and that were.
+    // Beats of one colour, whichever, and pixels of it.
     wire [31:0] f_rgba = $anyconst;
-    wire f_in  = f_take & beat_rgba_i == f_rgba & beat_mask_i != 0;
+    wire f_in  = f_take & beat_rgba_i == f_rgba;
     wire f_out_left  = left_valid_o & left_ready_i & left_rgba_o == f_rgba;
     wire f_out_right = right_valid_o & right_ready_i & right_rgba_o == f_rgba;
     reg  [4:0] f_ins, f_outs;

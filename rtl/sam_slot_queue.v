@@ -517,7 +517,8 @@ module sam_slot_queue #(
     reg [`SAM_RGBA_BITS+A+D-1:0] f_asking;
     reg [`SAM_RGB_BITS+D-1:0]    f_answered;
     wire f_asks_it    = f_asked & f_asks == f_number;
-    wire f_answers_it = response_valid_i & response_ready_o & f_answers == f_number;
+    // A short queue shows the answer before it is taken.
+    wire f_answers_it = response_valid_i & f_answers == f_number;
     wire [`SAM_RGB_BITS+D-1:0] f_answer = f_answers_it ? {response_rgb_i, response_depth_i} : f_answered;
     wire [`SAM_RGBA_BITS-1:0] f_rgba;
     wire [A-1:0] f_area;

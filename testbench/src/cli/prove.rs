@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::prove::record::{self, shown, Compared, Proved, Record};
-use crate::prove::{is_property, properties, Bug, Effort, Prover, Verdict, BUGS};
+use crate::prove::{name, properties, Bug, Effort, Prover, Verdict, BUGS};
 use rayon::prelude::*;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::picture::write_file;
@@ -116,7 +116,7 @@ fn print_proofs(prover: &Prover, proved: &[Proved]) -> Result<(), Failure> {
             table.add_row(row.map(String::as_str));
         }
         // A lemma that fails leaves what rests on it unproved.
-        let lemmas = entry.proof.verdicts.iter().filter(|(label, _)| !is_property(label));
+        let lemmas = entry.proof.verdicts.iter().filter(|(label, _)| name(label).is_none());
         for (label, verdict) in lemmas.filter(|(_, verdict)| matches!(verdict, Verdict::Fails(_))) {
             table.add_row([&entry.module, label, &shown(*verdict), &entry.build, ""]);
             failed += 1;

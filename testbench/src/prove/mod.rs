@@ -11,7 +11,7 @@ pub mod record;
 
 pub use bugs::{Bug, BUGS};
 pub use netlist::Equivalence;
-pub use property::{properties, Property};
+pub use property::{name, properties, Property};
 
 use crate::flow::{self, FlowError, Folder};
 use crate::sources::{self, Sources};
@@ -212,9 +212,8 @@ impl Prover {
                 Task { folder, programs: &programs, module: format!("sam_{}", build.module) };
             task.read(&commands)?;
             let all = task.labels()?;
-            let (kept, others): (Vec<_>, Vec<_>) = all
-                .into_iter()
-                .partition(|label| name_of(label).strip_prefix("p_") == Some(bug.property));
+            let (kept, others): (Vec<_>, Vec<_>) =
+                all.into_iter().partition(|label| name(label) == Some(bug.property));
             if kept.is_empty() {
                 return Err(bug.fault("there is no such property"));
             }
@@ -247,16 +246,6 @@ impl Prover {
 /// Seconds since then, to a tenth.
 fn tenths(started: Instant) -> f64 {
     (started.elapsed().as_secs_f64() * 10.0).round() / 10.0
-}
-
-/// A label without the blocks it is in.
-fn name_of(label: &str) -> &str {
-    label.rsplit('.').next().unwrap_or(label)
-}
-
-/// Whether a label is that of a property, not of a lemma.
-pub fn is_property(label: &str) -> bool {
-    name_of(label).starts_with("p_")
 }
 
 /// The parameters of a module in a configuration.
@@ -333,7 +322,7 @@ impl Task<'_> {
     fn prove(&self, effort: Effort) -> Result<BTreeMap<String, Verdict>, FlowError> {
         let labels = self.labels()?;
         let (alone, lemmas): (Vec<_>, Vec<_>) =
-            labels.iter().cloned().partition(|label| is_property(label));
+            labels.iter().cloned().partition(|label| name(label).is_some());
         // Without registers nothing is gained by proving all at once.
         if effort.induction > 1 || alone.len() == 1 {
             let (verdicts, stopped) = self.prove_some(&labels, &[], effort)?;
@@ -380,6 +369,11 @@ impl Task<'_> {
         // What holds in every state needs no base.
         if depth == 0 && labels.iter().all(is_inductive) {
             return Ok((labels.iter().map(inductive).collect(), false));
+        }
+        // One clock that took too long takes too long again.
+        if stopped && effort.bound == 1 {
+            let open = |label: &String| (label.clone(), Verdict::Bounded(0));
+            return Ok((labels.iter().map(open).collect(), true));
         }
         let bound = match labels.iter().all(is_inductive) {
             true => effort.induction,

@@ -1,9 +1,10 @@
 //! The properties in the text of a module.
 
-/// A property: an assertion whose label begins with `p_`.
+/// A property: an assertion whose label begins with `p_`, or several whose labels end in `__` and a
+/// number, for parts that are easier proved alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Property {
-    /// Its label without `p_`.
+    /// Its label without `p_` and number.
     pub name: String,
     /// The sentence before it.
     pub sentence: String,
@@ -20,12 +21,21 @@ pub fn properties(text: &str) -> Vec<Property> {
             continue;
         }
         let label = line.split_once(": assert").map(|(before, _)| before.rsplit(' ').next());
-        if let Some(name) = label.flatten().and_then(|label| label.strip_prefix("p_")) {
-            properties.push(Property { name: name.to_owned(), sentence: sentence.join(" ") });
+        if let Some(name) = label.flatten().and_then(name) {
+            let is_part = properties.last().is_some_and(|last: &Property| last.name == name);
+            if !is_part {
+                properties.push(Property { name: name.to_owned(), sentence: sentence.join(" ") });
+            }
         }
         sentence.clear();
     }
     properties
+}
+
+/// The property that a label is of, whatever block it is in; none of a lemma.
+pub fn name(label: &str) -> Option<&str> {
+    let label = label.rsplit('.').next()?.strip_prefix("p_")?;
+    Some(label.split_once("__").map_or(label, |(name, _)| name))
 }
 
 #[cfg(test)]
@@ -40,5 +50,8 @@ mod tests {
         let [yes, too] = &properties(text)[..] else { panic!("two") };
         assert_eq!((&yes.name[..], &yes.sentence[..]), ("yes", "Yes, all."));
         assert_eq!((&too.name[..], &too.sentence[..]), ("too", ""));
+        let parts = "`ifdef FORMAL\n// Of all.\np_a__0: assert (1);\np_a__1: assert (1);";
+        assert_eq!(properties(parts).len(), 1);
+        assert_eq!((name("g.p_a__1"), name("lemma")), (Some("a"), None));
     }
 }

@@ -29,11 +29,11 @@ impl Proved {
         Proved { module: build.module.clone(), build: build.label.clone(), proof }
     }
 
-    /// The verdict of a property, whatever block it is in.
+    /// The weakest verdict of a property's parts.
     pub fn verdict(&self, property: &str) -> Option<Verdict> {
-        let label = format!("p_{property}");
-        let mut verdicts = self.proof.verdicts.iter();
-        verdicts.find(|(name, _)| super::name_of(name) == label).map(|(_, verdict)| *verdict)
+        let verdicts = self.proof.verdicts.iter();
+        let of_it = verdicts.filter(|(label, _)| super::name(label) == Some(property));
+        of_it.map(|(_, verdict)| *verdict).min()
     }
 }
 
@@ -184,6 +184,7 @@ fn told(proved: &Proved) -> String {
 pub fn shown(verdict: Verdict) -> String {
     match verdict {
         Verdict::Fails(step) => format!("**fails** at {step}"),
+        Verdict::Bounded(0) => "open".into(),
         Verdict::Bounded(clocks) => format!("{clocks} clocks"),
         Verdict::Induction(_) => "always".into(),
     }
