@@ -36,7 +36,7 @@ fn what_is_not_run_is_missing() {
     let counts = measure(Plan { case, ..plan(&TARGETS, settings("default", &[]), 3) });
     let report = Report::new(&counts, &[]);
     let names: Vec<&str> = report.missing.iter().map(|point| point.name.as_str()).collect();
-    assert!(names.contains(&"count_q[4]"), "three beats do not count to 16: {names:?}");
+    assert!(names.contains(&"count_q[3]"), "three beats do not count to 8: {names:?}");
 }
 
 #[test]

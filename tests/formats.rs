@@ -67,7 +67,7 @@ fn the_named_configurations_are_those_of_the_documentation() {
         ("DEPTH_INTERPOLATED", [1, 0, 1]),
         ("DEPTH_EXTERNAL", [0, 0, 0]),
         ("TILT", [0, 0, 1]),
-        ("SLOTS", [16, 16, 16]),
+        ("SLOTS", [16, 4, 16]),
     ];
     for (column, name) in Config::NAMES.into_iter().enumerate() {
         let config = Config::named(name).expect("it has a name");
