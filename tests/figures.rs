@@ -7,7 +7,7 @@
 use std::sync::OnceLock;
 use wheatstone_studies::reproduce::{run, Summary};
 use wheatstone_studies::{Report, Row, Verdict, EXPERIMENTS};
-use wheatstone_tests::folder;
+use wheatstone_tests::{folder, PUBLISHED_EXPONENTS};
 
 /// All experiments but the one that needs an OpenGL renderer, run once for all tests.
 fn reports() -> &'static [Report] {
@@ -71,39 +71,7 @@ fn every_erratum_is_told_in_the_documentation() {
 
 #[test]
 fn the_filter_s_figures_are_covered() {
-    // p and q for n = 1 … 29.
-    const EXPONENTS: [(u32, u32); 29] = [
-        (1, 1),
-        (2, 2),
-        (2, 4),
-        (3, 3),
-        (3, 4),
-        (3, 5),
-        (3, 6),
-        (4, 4),
-        (4, 4),
-        (4, 5),
-        (4, 5),
-        (4, 6),
-        (4, 6),
-        (4, 7),
-        (4, 8),
-        (5, 5),
-        (5, 5),
-        (5, 5),
-        (5, 6),
-        (5, 6),
-        (5, 6),
-        (5, 6),
-        (5, 6),
-        (5, 7),
-        (5, 7),
-        (5, 7),
-        (5, 8),
-        (5, 8),
-        (5, 8),
-    ];
-    for (n, (p, q)) in (1u32..).zip(EXPONENTS) {
+    for (n, (p, q)) in (1u32..).zip(PUBLISHED_EXPONENTS) {
         let sum = 0.5f64.powi(p as i32) + 0.5f64.powi(q as i32);
         let one = if p == q { format!(" = 1/2^{}", p - 1) } else { String::new() };
         let error = 100.0 * (f64::from(n) * sum - 1.0).abs();

@@ -6,43 +6,11 @@ use wheatstone_golden::pipeline::filter_tables::{
     reciprocal, THREE_TERM, THREE_TERM_SHIFT, TWO_TERM,
 };
 use wheatstone_studies::filter::{errors, mean, overflowing, truncated_white};
-
-/// The published exponents p, q for n = 1 to 29 (paper, section 5.6.1, as recomputed).
-const PUBLISHED: [(u32, u32); 29] = [
-    (1, 1),
-    (2, 2),
-    (2, 4),
-    (3, 3),
-    (3, 4),
-    (3, 5),
-    (3, 6),
-    (4, 4),
-    (4, 4),
-    (4, 5),
-    (4, 5),
-    (4, 6),
-    (4, 6),
-    (4, 7),
-    (4, 8),
-    (5, 5),
-    (5, 5),
-    (5, 5),
-    (5, 6),
-    (5, 6),
-    (5, 6),
-    (5, 6),
-    (5, 6),
-    (5, 7),
-    (5, 7),
-    (5, 7),
-    (5, 8),
-    (5, 8),
-    (5, 8),
-];
+use wheatstone_tests::PUBLISHED_EXPONENTS;
 
 #[test]
 fn two_terms_have_the_published_errors() {
-    assert_eq!(TWO_TERM[1..], PUBLISHED);
+    assert_eq!(TWO_TERM[1..], PUBLISHED_EXPONENTS);
     let errors = errors(Division::TwoTerm);
     assert_eq!(errors.iter().sum::<f64>(), 305.0 / 256.0);
     assert!((mean(&errors) - 0.041_082_974_137_931_036).abs() < 1e-12);

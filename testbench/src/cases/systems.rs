@@ -303,6 +303,14 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let mut tape = Tape::new(&turned, minimal, false);
     turned.run(minimal, tape.sink());
     let turned = whole(target, &turned, "one display, rotated", tape);
+
+    // The secondary leaves through the first and the last row.
+    let raised: Vec<Polygon> = polygons.iter().map(|polygon| raised(polygon, f, size[1])).collect();
+    let raised = job(config, options, size, &raised);
+    let mut tape = Tape::new(&raised, minimal, false);
+    raised.run(minimal, tape.sink());
+    let raised = config.tilt.then(|| whole(target, &raised, "one eye raised", tape));
+
     let mut cleared = Case { name: "bad setups, error cleared".into(), ..spoiled.clone() };
     cleared.statics[ERROR_CLEAR] = 1;
     cleared.flags = vec![0];
@@ -314,7 +322,7 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let largest = largest.flat_map(|[a, b]| [[a, b], [b, a]]);
     let largest = largest.map(|size| large(target, config, size));
     let every = (target == Target::Hybrid).then(|| every_kind(config));
-    let rest = [crowded, turned, cleared].into_iter().chain(largest).chain(every);
+    let rest = [crowded, turned, cleared].into_iter().chain(raised).chain(largest).chain(every);
     [spoiled].into_iter().chain(stray).chain(rest).collect()
 }
 
@@ -394,6 +402,19 @@ fn stretched(eye: Eye, stretch: f64, heights: [i32; 3], turn: bool, f: &Formats)
         Vertex { x, y, depth: 1000, colour, ..Vertex::default() }
     });
     Polygon { vertices: vertices.collect(), ..Polygon::default() }
+}
+
+/// A polygon within the rows of the left eye's view that the right eye sees six pixels higher or
+/// lower.
+fn raised(polygon: &Polygon, f: Formats, height: u32) -> Polygon {
+    let mut polygon = polygon.clone();
+    let (bottom, shift) = (i64::from(height) * f.one_pixel(), 6 * f.one_pixel());
+    let shift = if polygon.id.is_multiple_of(2) { shift } else { -shift };
+    for vertex in &mut polygon.vertices {
+        let y = i64::from(vertex.y[0]).clamp(0, bottom);
+        vertex.y = [y, y + shift].map(|y| y as i32);
+    }
+    polygon
 }
 
 /// Passes polygons on, every second one with its setup spoilt, or put just inside what is allowed.
