@@ -90,22 +90,7 @@ module sam_coverage_edge #(
     endgenerate
     always @* begin
         // Sample k + 4 l is covered where 8 E + low + (2k - 3) a + (2l - 3) b is not negative.
-        p_samples__0: assert (mask_o[0] == f_mask[0]);
-        p_samples__1: assert (mask_o[1] == f_mask[1]);
-        p_samples__2: assert (mask_o[2] == f_mask[2]);
-        p_samples__3: assert (mask_o[3] == f_mask[3]);
-        p_samples__4: assert (mask_o[4] == f_mask[4]);
-        p_samples__5: assert (mask_o[5] == f_mask[5]);
-        p_samples__6: assert (mask_o[6] == f_mask[6]);
-        p_samples__7: assert (mask_o[7] == f_mask[7]);
-        p_samples__8: assert (mask_o[8] == f_mask[8]);
-        p_samples__9: assert (mask_o[9] == f_mask[9]);
-        p_samples__10: assert (mask_o[10] == f_mask[10]);
-        p_samples__11: assert (mask_o[11] == f_mask[11]);
-        p_samples__12: assert (mask_o[12] == f_mask[12]);
-        p_samples__13: assert (mask_o[13] == f_mask[13]);
-        p_samples__14: assert (mask_o[14] == f_mask[14]);
-        p_samples__15: assert (mask_o[15] == f_mask[15]);
+        p_samples: assert (mask_o == f_mask);
     end
 `endif
 endmodule

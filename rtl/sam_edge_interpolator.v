@@ -192,7 +192,7 @@ module sam_edge_interpolator #(
                             & {f_by, f_saved_by, f_row_by} == {f_b * f_y, f_b * f_saved_y, f_b * f_row_y};
             always @* assume (f_begun | (f_sums & f_products));
             always @(posedge clk_i) if (f_begun) begin
-                // The value is A x + B y + C at the pixel (proved of values of 6 bits).
+                // The value is A x + B y + C at the pixel (proved of values of 3 bits).
                 p_plane: assert (~f_held | value_value_o == f_c + f_a * f_x + f_b * f_y);
                 // Lemma: so is the row start, and its increment.
                 lemma_sums: assert (f_sums);

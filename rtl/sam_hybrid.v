@@ -461,8 +461,9 @@ module sam_hybrid #(
         p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
         // A setup is taken with its LOAD, and with nothing else.
         p_setup: assert (f_setup == (f_take & beat_op_i == `SAM_OP_LOAD));
-        // Edges are taken by a LOAD that was taken, and by each: none is before its edges but the one inside.
-        p_edges: assert (f_loads <= 1);
+        // Edges are taken by a LOAD that was taken, and by each: before its edges is none but what is inside, one or,
+        // with 8 slots or more, two.
+        p_edges: assert (f_loads <= (SLOTS < 8 ? 1 : 2));
         // Where all is ready a void beat is taken at once, whatever its setup was: nothing hangs.
         p_never_hangs: assert (f_slow | ~f_void | f_waited == 0);
         // Before a good setup nothing is read or drawn.

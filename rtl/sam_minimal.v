@@ -288,15 +288,16 @@ module sam_minimal #(
     reg [2:0] f_waited;
     wire f_eager = left_ready_i & right_ready_i & beat_valid_i & (setup_valid_i | beat_op_i != `SAM_OP_LOAD);
     always @(posedge clk_i) f_waited <= rst_i | ~f_eager | beat_ready_o ? 0 : f_waited + 1;
-    // Beats of one colour, whichever, and pixels of it.
+    // Beats and pixels, and whether there were any of one colour, whichever.
     wire [31:0] f_rgba = $anyconst;
-    wire f_in  = f_take & beat_rgba_i == f_rgba;
-    wire f_out_left  = left_valid_o & left_ready_i & left_rgba_o == f_rgba;
-    wire f_out_right = right_valid_o & right_ready_i & right_rgba_o == f_rgba;
+    wire f_left  = left_valid_o & left_ready_i;
+    wire f_right = right_valid_o & right_ready_i;
     reg  [4:0] f_ins, f_outs;
+    reg        f_coloured;
     always @(posedge clk_i) begin
-        f_ins  <= rst_i ? 0 : f_ins + f_in;
-        f_outs <= rst_i ? 0 : f_outs + f_out_left + f_out_right;
+        f_ins      <= rst_i ? 0 : f_ins + f_take;
+        f_outs     <= rst_i ? 0 : f_outs + f_left + f_right;
+        f_coloured <= f_coloured | (f_take & beat_rgba_i == f_rgba);
     end
     reg [3:0] f_loads;
     always @(posedge clk_i) f_loads <= rst_i ? 0 : f_loads + (f_take & beat_op_i == `SAM_OP_LOAD) - f_setup;
@@ -319,8 +320,10 @@ module sam_minimal #(
         // The error is raised by a void beat only, and stays until it is cleared.
         p_error: assert ($past(rst_i) | ~error_o | $past(error_o) | $past(f_void) | $past(s1_void));
         p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);
-        // Nothing is drawn more than twice for a beat, in a primary and a secondary pixel.
-        p_nothing_made: assert (f_outs <= 2 * f_ins | f_rgba == 0);
+        // A beat gives two pixels at most, a primary and a secondary.
+        p_nothing_made: assert (f_outs <= 2 * f_ins);
+        // A colour that is drawn has come with a beat.
+        p_colour: assert (f_coloured | ((~left_valid_o | left_rgba_o != f_rgba) & (~right_valid_o | right_rgba_o != f_rgba)));
         // Lemma: void beats stay so in both stages.
         lemma: assert (~f_void | (s1_void & (~s2_valid | (~s2_primary & ~s2_wanted))));
         // A pixel that can be blended later says so.

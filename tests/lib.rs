@@ -113,13 +113,15 @@ pub fn copy_of_rtl() -> TempDir {
     copy
 }
 
-/// Replaces a text that must occur exactly once in a file.
+/// Replaces a text that must occur exactly once in the hardware of a file: what comes before its formal
+/// properties.
 pub fn plant(rtl: &Path, file: &str, find: &str, replace: &str) {
     let path = rtl.join(file);
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"));
-    let times = text.matches(find).count();
+    let hardware = text.split("`ifdef FORMAL").next().unwrap_or_default();
+    let times = hardware.matches(find).count();
     assert!(times == 1, "{file}: “{find}” occurs {times} times, not once: mend the test's table");
-    fs::write(&path, text.replace(find, replace)).expect("written");
+    fs::write(&path, text.replacen(find, replace, 1)).expect("written");
 }
 
 /// A program that the tests call; a missing one fails the test, with the command that installs it.

@@ -559,8 +559,8 @@ fn monocular_pipeline() {
         &[
             ("beat_mask != {MB{1'b0}}", "beat_mask == {MB{1'b0}}"),
             (".slot_eye_i(~eye_i)", ".slot_eye_i(eye_i)"),
-            ("out_valid & out_visible", "out_valid | out_visible"),
-            ("pixel_ready_i | ~out_visible", "pixel_ready_i & ~out_visible"),
+            (".colour_visible_i(colour_visible)", ".colour_visible_i(~colour_visible)"),
+            ("= ~out_eye", "= out_eye"),
             ("{beat_centre, beat_x, beat_y,", "{~beat_centre, beat_x, beat_y,"),
         ],
     );

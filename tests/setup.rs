@@ -219,7 +219,7 @@ fn reasons_are_given_in_order() {
     assert_eq!(reason(edge_on, |_| ()), Some((Reason::ViewExclusive, [true, false])));
     let narrow = [([10.0, 31.0], 10.0), ([90.0, 32.0], 20.0), ([40.0, 30.0], 90.0)];
     assert_eq!(reason(narrow, |_| ()), Some((Reason::Ratio, [true; 2])));
-    let tiny = [([10.2, 10.3], 10.1), ([12.1, 12.0], 10.6), ([10.4, 10.6], 12.7)];
+    let tiny = [([10.2, 10.3], 10.1), ([11.1, 11.0], 10.6), ([10.4, 10.6], 11.2)];
     assert_eq!(reason(tiny, |_| ()), Some((Reason::Cost, [true; 2])));
     let steep = [([10.0, 12.0], 10.0), ([10.01, 12.01], 90.0), ([10.02, 12.02], 50.0)];
     let polygon = |cost_rule| {

@@ -280,7 +280,7 @@ fn a_manifest_that_contradicts_the_bench_is_refused_by_line() {
         });
     };
     for (at, value, line) in [
-        ("/parameters/0/value", json!(2), "vec.vh differs at line 5"),
+        ("/parameters/0/value", json!(2), "vec.vh differs at line 8"),
         ("/seed", json!(2), "vec.vh differs at line 1"),
         ("/case", json!("a scene"), "vec.vh differs at line 1"),
         ("/generator", json!("wheatstone 9.9.9"), "vec.vh differs at line 1"),

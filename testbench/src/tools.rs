@@ -150,7 +150,7 @@ pub static YICES: Tool = Tool {
 /// Proves that netlists are equivalent.
 pub static YOSYS_ABC: Tool = Tool {
     program: "yosys-abc",
-    purpose: "proof that a mutant is equivalent",
+    purpose: "proofs without registers, and that a mutant is equivalent",
     optional: true,
     oldest: None,
     package: "yosys",
@@ -218,7 +218,7 @@ pub static COCOTB: Tool = Tool {
     purpose: "replay of vectors in Python",
     optional: true,
     oldest: Some(Version { major: 2, minor: 0 }),
-    package: "scripts/setup-cocotb",
+    package: "scripts/setup",
     version_arguments: &["--version"],
 };
 

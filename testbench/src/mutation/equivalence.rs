@@ -9,8 +9,9 @@
 
 use super::netlist::{Mutant, Netlist, DESIGN};
 use crate::synth::SynthError;
-use crate::tools::{YOSYS, YOSYS_ABC};
+use crate::tools::{self, YOSYS, YOSYS_ABC};
 use std::fmt::Write;
+use std::process::Command;
 use wheatstone_golden::interface::{Direction, Field, Interface, Stream};
 
 /// Seconds that a proof may take.
@@ -45,8 +46,14 @@ impl Netlist {
         );
         self.work.run(&YOSYS, self.work.command(&self.yosys).args(["-q", "-p", &script]))?;
         let proof = format!("read_aiger {file}; strash; scorr; pdr -T {SECONDS}; print_status");
-        let output = self.work.command(&abc).args(["-c", &proof]).output();
-        let output = output.map_err(|source| SynthError::Read { path: abc.program, source })?;
+        // Merging registers has no limit of its own.
+        let mut command = Command::new("timeout");
+        command.current_dir(self.work.path()).env("PATH", tools::search_path());
+        command.arg((2 * SECONDS).to_string()).arg(&abc.program).args(["-c", &proof]);
+        let output = self.work.output(&mut command)?;
+        if output.status.code() == Some(124) {
+            return Ok(Verdict::Open);
+        }
         let text = String::from_utf8_lossy(&output.stdout);
         let status = text.lines().rev().find_map(|line| line.trim().strip_prefix("Status ="));
         match status.and_then(|rest| rest.split_whitespace().next()) {

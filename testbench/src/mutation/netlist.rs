@@ -94,7 +94,7 @@ impl Netlist {
         let script = format!(
             "{}prep -flatten -top {module}; write_rtlil {DESIGN}; \
              mutate -list {} -seed {seed} -none -ctrl {SELECT}_i {SELECT_BITS} 0 -o list; script list; \
-             write_verilog -noattr {NETLIST}/{module}.v",
+             splitnets -driver; write_verilog -noattr {NETLIST}/{module}.v",
             design.read_commands(),
             count + 1,
         );

@@ -172,7 +172,7 @@ pub const BUGS: &[Bug] = &[
     bug("edge_interpolator", "value", "moves ? row_a_q : row_q", "moves ? row_q : row_a_q"),
     bug("edge_interpolator", "slopes", "b_q     <= beat_b_i", "b_q     <= beat_a_i"),
     bug_in(
-        "4 bits",
+        "3 bits",
         "edge_interpolator",
         "plane",
         "wire            minus = beat_y_move_i[1]",
@@ -507,7 +507,13 @@ pub const BUGS: &[Bug] = &[
     bug("minimal", "void", "{s1_eye, ~s1_void &", "{s1_eye, s1_valid &"),
     bug("minimal", "error", "s2_ready & s1_void);", "s2_ready);"),
     bug("minimal", "error_stays", "(error_q & ~error_clear_i)", "(error_q & error_clear_i)"),
-    bug("minimal", "nothing_made", "s1_rgba_q   <= beat_rgba_i", "s1_rgba_q   <= ~beat_rgba_i"),
+    bug(
+        "minimal",
+        "nothing_made",
+        "wire offered = beat_valid_i &",
+        "wire offered = setup_valid_i &",
+    ),
+    bug("minimal", "colour", "s1_rgba_q   <= beat_rgba_i", "s1_rgba_q   <= ~beat_rgba_i"),
     bug(
         "minimal",
         "unblended",
