@@ -53,6 +53,7 @@ module sam_edge_interpolator #(
     endgenerate
 
     reg                     valid_q;
+    reg                     save_q;
     reg [BITS-1:0]          value_q;
     reg [BITS-1:0]          saved_q;
     reg [BITS-1:0]          row_q;
@@ -74,7 +75,10 @@ module sam_edge_interpolator #(
     // A LOAD adds nothing to its start, which leaves no choice to be made behind the adder.
     wire [BITS-1:0] load_a = {{SIGNS{beat_a_i[SLOPE_BITS-1]}}, beat_a_i[SLOPE_BITS-2:0]};
     wire [BITS-1:0] a      = {{SIGNS{a_q[SLOPE_BITS-1]}}, a_q[SLOPE_BITS-2:0]};
-    wire [BITS-1:0] from   = is_load ? beat_start_i : is_row ? saved_q : value_q;
+    // The row start is saved a clock late, from the value: so it depends on no `ready`. Until then the
+    // value is it.
+    wire            back   = is_row & ~save_q;
+    wire [BITS-1:0] from   = is_load ? beat_start_i : back ? saved_q : value_q;
     wire [BITS-1:0] by     = is_row ? (moves ? row_a_q : row_q) : moves ? a : {BITS{1'b0}};
     wire [BITS-1:0] value_d;
 
@@ -98,9 +102,11 @@ module sam_edge_interpolator #(
         if (rst_i)             valid_q <= 1'b0;
         else if (beat_ready_o) valid_q <= beat_valid_i;
 
+        if (save_q) saved_q <= value_q;
+
         if (accept) begin
             value_q <= value_d;
-            if (beat_save_i) saved_q <= value_d;
+            save_q  <= beat_save_i;
             if (is_load) begin
                 a_q     <= beat_a_i;
                 b_q     <= beat_b_i;
@@ -144,7 +150,7 @@ module sam_edge_interpolator #(
         assume (`SAM_WAITS(beat_valid_i, beat_ready_o, {beat_op_i, beat_save_i, beat_move_i, beat_y_move_i,
                            beat_start_i, beat_a_i, beat_b_i, beat_row_i, beat_low_i}));
     end
-    wire f_same = {value_q, saved_q, row_q, row_a_q, low_q} == {f_value, f_saved, f_row, f_row + f_a, f_low}
+    wire f_same = {value_q, save_q ? value_q : saved_q, row_q, row_a_q, low_q} == {f_value, f_saved, f_row, f_row + f_a, f_low}
                 & $signed(a_q) == f_a & $signed(b_q) == f_b;
     always @* assume (f_begun | f_same);
 

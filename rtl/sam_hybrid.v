@@ -194,9 +194,10 @@ module sam_hybrid #(
 
     // With many slots a register is behind these units: the next beat shows late in a clock whether
     // this one leaves and ends its pixel, and all of S2 depends on that.
-    localparam W = `SAM_OP_BITS + P + C + `SAM_MOVE_BITS + 16 + MB + 2 * C + RB + D;
+    localparam W = `SAM_OP_BITS + P + C + `SAM_MOVE_BITS + 17 + MB + 2 * C + RB + D;
+    wire xy_load = xy_op == `SAM_OP_LOAD;
     wire [W-1:0] xy = {
-        xy_op, xy_column, xy_row, xy_row_move, xy_save, xy_move, xy_near, xy_x_inside, xy_x_end,
+        xy_op, xy_load, xy_column, xy_row, xy_row_move, xy_save, xy_move, xy_near, xy_x_inside, xy_x_end,
         xy_y_inside, xy_y_end, xy_refused, xy_eye, xy_binocular, xy_lend, xy_average, xy_planes,
         xy_swap, xy_mirror, xy_centre_q, xy_mask_q, xy_place_q, xy_rgba_q, xy_depth_q
     };
@@ -221,7 +222,7 @@ module sam_hybrid #(
     wire [P-1:0]              s1_column;
     wire [C-1:0]              s1_row;
     wire [`SAM_MOVE_BITS-1:0] s1_row_move;
-    wire s1_save, s1_move, s1_near, s1_x_inside, s1_x_end, s1_y_inside, s1_y_end;
+    wire s1_load, s1_save, s1_move, s1_near, s1_x_inside, s1_x_end, s1_y_inside, s1_y_end;
     wire s1_refused, s1_eye, s1_binocular, s1_lend, s1_average, s1_planes, s1_swap, s1_mirror;
     wire s1_centre;
     wire [MB-1:0]  s1_mask;
@@ -230,7 +231,7 @@ module sam_hybrid #(
     wire [D-1:0]   s1_depth;
 
     assign {
-        s1_op, s1_column, s1_row, s1_row_move, s1_save, s1_move, s1_near, s1_x_inside, s1_x_end,
+        s1_op, s1_load, s1_column, s1_row, s1_row_move, s1_save, s1_move, s1_near, s1_x_inside, s1_x_end,
         s1_y_inside, s1_y_end, s1_refused, s1_eye, s1_binocular, s1_lend, s1_average, s1_planes,
         s1_swap, s1_mirror, s1_centre, s1_mask, s1_place, s1_rgba, s1_depth
     } = s1;
@@ -238,7 +239,6 @@ module sam_hybrid #(
     // Into S2: a LOAD beat is offered with its edges. All units of S2 move together. The sampler and
     // the filter have room between the ends of pixels even when the stage has not: they get a beat
     // when it moves.
-    wire s1_load    = s1_op == `SAM_OP_LOAD;
     wire s1_first   = (s1_op != `SAM_OP_STEP) | s1_move | (s1_row_move != {`SAM_MOVE_BITS{1'b0}});
     wire s1_end     = s1_x_end | s1_y_end;
     wire s2_valid, s2_ready, s3_ready;

@@ -189,13 +189,14 @@ module sam_slot_queue #(
         end
     end
 
-    // The queue: what all are compared by in registers, the rest in a memory.
+    // The queue: what all are compared by in registers, the rest in a memory. The free place is written
+    // whether a pixel enters or not: that is known late, and all the places are far.
     reg  [E-1:0] rest_q [0:SLOTS-1];
     wire [P-1:0] place [0:SLOTS-1];
     wire [P-1:0] enter_place = queued ? primary_place : secondary_place;
 
     always @(posedge clk_i) begin
-        if (push) begin
+        if (room) begin
             rest_q[enter_index] <= queued ? {1'b0, front_primary_pixel[X-2*C-1:0]}
                                           : {1'b1, front_secondary_pixel[X-2*C-1:0]};
         end
@@ -209,7 +210,7 @@ module sam_slot_queue #(
             assign place[i] = place_q;
 
             always @(posedge clk_i) begin
-                if (push & (enter_index == i)) place_q <= enter_place;
+                if (room & (enter_index == i)) place_q <= enter_place;
 
                 if (rst_i) occupied_q[i] <= 1'b0;
                 else       occupied_q[i] <= (push & (enter_index == i))

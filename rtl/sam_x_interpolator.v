@@ -59,7 +59,10 @@ module sam_x_interpolator #(
     wire is_row  = beat_op_i == `SAM_OP_ROW;
     wire accept  = beat_valid_i & beat_ready_o;
 
-    wire [X-1:0] from  = is_row ? saved_q : acc_q;
+    // The row start is saved a clock late, from the accumulator: so it depends on no `ready`. Until then
+    // the accumulator is it.
+    wire         back  = is_row & ~save_q;
+    wire [X-1:0] from  = back ? saved_q : acc_q;
     wire [X-1:0] by    = is_row ? row_q : {{(X - `SAM_SCALE_BITS){1'b0}}, step_q};
     wire [X-1:0] sum   = from + by;
     wire [X-1:0] acc_d = is_load ? beat_start_i : sum;
@@ -76,13 +79,14 @@ module sam_x_interpolator #(
         if (rst_i) valid_q <= 1'b0;
         else       valid_q <= beat_valid_i | (valid_q & ~(pixel_valid_o & pixel_ready_i));
 
+        if (save_q) saved_q <= acc_q;
+
         if (accept) begin
             op_q   <= beat_op_i;
             save_q <= beat_save_i;
             last_q <= beat_last_i;
             move_q <= moves & ~is_load;
             acc_q  <= acc_d;
-            if (beat_save_i) saved_q <= acc_d;
             if (is_load) begin
                 step_q <= beat_step_i;
                 row_q  <= beat_row_i;
@@ -132,7 +136,7 @@ module sam_x_interpolator #(
                            beat_start_i, beat_step_i, beat_row_i}));
         assume (width_i <= `SAM_MAX_SIZE(SUBPIXEL_BITS) & (~f_begun | $stable(width_i)));
     end
-    wire f_same = {acc_q, saved_q, row_q, step_q} == {f_acc, f_saved, f_row, f_step};
+    wire f_same = {acc_q, save_q ? acc_q : saved_q, row_q, step_q} == {f_acc, f_saved, f_row, f_step};
     always @* assume (f_begun | f_same);
 
     always @(posedge clk_i) if (f_begun) begin

@@ -102,7 +102,7 @@ fn x_interpolator() {
         file,
         &[
             ("acc_q[X-1:F] < {", "acc_q[X-1:F] <= {"),
-            ("is_row ? saved_q : acc_q", "is_row ? acc_q : saved_q"),
+            ("back ? saved_q : acc_q", "back ? acc_q : saved_q"),
         ],
     );
 }
@@ -147,7 +147,7 @@ fn edge_interpolator() {
             ("moves ? row_a_q : row_q", "moves ? row_q : row_a_q"),
         ],
     );
-    hybrid.catches("paper", file, &[("is_row ? saved_q : value_q", "is_row ? value_q : saved_q")]);
+    hybrid.catches("paper", file, &[("back ? saved_q : value_q", "back ? value_q : saved_q")]);
     hybrid.catches(
         "full",
         file,

