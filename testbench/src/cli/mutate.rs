@@ -23,9 +23,10 @@ pub(super) struct MutateArgs {
     /// Number of random beats of each target [default: as in the default regression]
     #[arg(long)]
     beats: Option<u64>,
-    /// Named set of build parameters
-    #[arg(long, default_value = "default", value_name = "default|paper|full")]
-    config: String,
+    /// Named set of build parameters [default: default; of coverage full, as there is little of it without
+    /// samples]
+    #[arg(long, value_name = "default|paper|full")]
+    config: Option<String>,
     /// Change one parameter (see `wheatstone list`); may be repeated
     #[arg(long = "param", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
@@ -50,10 +51,16 @@ impl MutateArgs {
         }
     }
 
+    /// Name of the configuration of a target.
+    fn config(&self, target: Target) -> &str {
+        let usual = if target == Target::Coverage { "full" } else { "default" };
+        self.config.as_deref().unwrap_or(usual)
+    }
+
     /// The configuration, with the parameters that were changed.
-    fn label(&self) -> String {
+    fn label(&self, target: Target) -> String {
         let changed = self.parameters.iter().map(|text| format!(" {text}"));
-        format!("{}{}", self.config, changed.collect::<String>())
+        format!("{}{}", self.config(target), changed.collect::<String>())
     }
 }
 
@@ -74,6 +81,9 @@ pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
         let found = test(args, target, &builder, &reviews)?;
         let [mutants, .., score] = found.score.cells();
         spinner.tell(target.name(), &format!("{score} of {mutants} mutants"));
+        if args.record {
+            record(&root, &found.score)?;
+        }
         Ok(found)
     });
     let found = found.collect::<Result<Vec<Found>, Failure>>()?;
@@ -90,18 +100,21 @@ pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
         write_file(file, format!("{content:#}\n").as_bytes())?;
     }
     if args.record {
-        // The first one has nothing before it.
-        let mut scores = match root.join(FILE).exists() {
-            true => Scores::read(&root)?,
-            false => Scores::default(),
-        };
-        let new: Vec<Score> = found.iter().map(|found| found.score.clone()).collect();
-        scores.update(&new);
-        scores.write(&root)?;
         say!("{FILE}: written; now run: wheatstone generate");
     }
     let good = found.iter().all(|found| found.score.passes() && found.stale.is_empty());
     Ok(if good { OK } else { MISMATCH })
+}
+
+/// Writes a score into the record of the workspace, so that a run that is stopped loses none before it.
+fn record(root: &Path, score: &Score) -> Result<(), Failure> {
+    // The first one has nothing before it.
+    let mut scores = match root.join(FILE).exists() {
+        true => Scores::read(root)?,
+        false => Scores::default(),
+    };
+    scores.update(std::slice::from_ref(score));
+    Ok(scores.write(root)?)
 }
 
 fn test(
@@ -110,9 +123,9 @@ fn test(
     builder: &Builder,
     reviews: &Reviews,
 ) -> Result<Found, Failure> {
-    let config = Settings::new(&args.config, &args.parameters)?.config;
+    let config = Settings::new(args.config(target), &args.parameters)?.config;
     let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
-    let (label, choice) = (args.label(), (args.count, args.seed));
+    let (label, choice) = (args.label(target), (args.count, args.seed));
     let mutated =
         Mutated::new(builder, [rtl_folder(&args.rtl)?, cache], (target, &config), choice)?;
     let runs = regression(target, &config, args.beats);

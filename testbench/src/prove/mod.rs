@@ -73,7 +73,8 @@ impl Effort {
             "clamp" | "popcount" | "setup_check" | "coverage" | "coverage_edge"
             | "filter_division" => [1, 1],
             "primary_planes" | "hybrid_planes" => [1, 5],
-            "hybrid" | "stereo" | "mono" | "hybrid_back" | "slot_queue" => [2, 8],
+            "hybrid" | "stereo" | "mono" | "hybrid_back" => [2, 12],
+            "slot_queue" => [2, 10],
             "minimal" => [2, 10],
             "primary" => [2, 14],
             _ => [3, 10],
