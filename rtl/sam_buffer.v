@@ -61,6 +61,41 @@ module sam_buffer #(
         if (~valid_q[0]) data0_q <= in_data_i;
         if (~valid_q[1]) data1_q <= in_data_i;
     end
+
+`ifdef FORMAL
+`include "sam_formal.vh"
+    `SAM_BEGIN
+    // The beats inside, told from the ports: how many, the first and the second one.
+    wire f_take = in_valid_i & in_ready_o;
+    wire f_give = out_valid_o & out_ready_i;
+    reg  [1:0]       f_inside;
+    reg  [WIDTH-1:0] f_first, f_second;
+    wire [1:0]       f_left = f_inside - f_give;
+    always @(posedge clk_i) begin
+        f_inside <= rst_i ? 0 : f_left + f_take;
+        if (f_give) f_first <= f_second;
+        if (f_take & f_left == 0) f_first  <= in_data_i;
+        if (f_take & f_left == 1) f_second <= in_data_i;
+    end
+
+    always @(posedge clk_i) if (f_begun) begin
+        // A beat that waits is offered again, unchanged.
+        p_stable: assert (`SAM_WAITS(out_valid_o, out_ready_i, out_data_o));
+        // No beat is taken where two are inside.
+        p_nothing_lost: assert (f_inside <= 2);
+        // A beat is offered exactly when one is inside,
+        p_nothing_twice: assert (out_valid_o == (f_inside != 0));
+        // as it was taken, in order.
+        p_data: assert (~out_valid_o | out_data_o == f_first);
+        // The one behind it is shown as it was taken.
+        p_back: assert (back_valid_o == (f_inside == 2) & (~back_valid_o | back_data_o == f_second));
+        // There is room unless two are inside.
+        p_room: assert (in_ready_o == (f_inside != 2));
+        // Lemma: registers are what the ports tell.
+        lemma: assert (f_inside == valid_q[0] + valid_q[1] & (write_q ^ read_q) == f_inside[0]
+                       & (f_inside == 0 | valid_q[read_q]));
+    end
+`endif
 endmodule
 
 `default_nettype wire

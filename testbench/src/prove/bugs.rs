@@ -62,6 +62,17 @@ const fn bug_in(
 
 /// All of them.
 pub const BUGS: &[Bug] = &[
+    bug("buffer", "stable", "= read_q ? data1_q : data0_q", "= out_ready_i ? data1_q : data0_q"),
+    bug(
+        "buffer",
+        "nothing_lost",
+        "in_ready_o   = ~(valid_q[0] & valid_q[1])",
+        "in_ready_o   = 1'b1",
+    ),
+    bug("buffer", "nothing_twice", "(valid_q[0] & ~(read & ~read_q))", "valid_q[0]"),
+    bug("buffer", "data", "read_q ^ read;", "read_q ^ write;"),
+    bug("buffer", "back", "read_q ? data0_q : data1_q", "read_q ? data1_q : data0_q"),
+    bug("buffer", "room", "~(valid_q[0] & valid_q[1])", "~valid_q[0]"),
     bug(
         "x_interpolator",
         "stable",

@@ -102,12 +102,13 @@ type Variant = (&'static str, &'static str, &'static [(&'static str, u32)]);
 
 /// Builds beside those of the named configurations: narrow ones, where wide ones would take too long,
 /// and ones that the systems use.
-const VARIANTS: [Variant; 7] = [
+const VARIANTS: [Variant; 8] = [
     ("filter_division", "three terms", &[("FILTER_TERMS", 3)]),
     ("edge_interpolator", "3 bits", &[("BITS", 3), ("SLOPE_BITS", 2), ("TILT", 1)]),
     ("edge_interpolator", "depth", &[("BITS", 43), ("SLOPE_BITS", 43), ("TILT", 0)]),
     ("clamp", "depth", &[("BITS", 24)]),
     ("stage", "40 bits", &[("WIDTH", 40)]),
+    ("buffer", "40 bits", &[("WIDTH", 40)]),
     ("polygon", "minimal", &[("SUBPIXEL_BITS", 8), ("LEND", 0)]),
     ("slot_queue", "2 slots", &[("SUBPIXEL_BITS", 4), ("SLOTS", 2)]),
 ];
