@@ -113,8 +113,6 @@ module sam_coverage #(
         // The area is 0 where no sample is covered, full where all are.
         p_area: assert ((coverage_area_o == 0) == (coverage_mask_o == 0)
                       & (coverage_area_o == `SAM_FULL_AREA(ANTIALIAS)) == &coverage_mask_o);
-        // Beats pass at once, each where and when its edges are.
-        p_passes: assert (coverage_valid_o == edges_valid_i & edges_ready_o == coverage_ready_i);
     end
 `endif
 endmodule

@@ -317,8 +317,9 @@ module sam_minimal #(
         p_never_hangs: assert (rst_i | f_waited <= 1 + single_i);
         // Before a good setup nothing is drawn.
         p_void: assert (~f_void | (~left_valid_o & ~right_valid_o));
-        // The error is raised by a void beat only, and stays until it is cleared.
+        // The error is raised by a void beat only,
         p_error: assert ($past(rst_i) | ~error_o | $past(error_o) | $past(f_void) | $past(s1_void));
+        // and stays until it is cleared.
         p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);
         // A beat gives two pixels at most, a primary and a secondary.
         p_nothing_made: assert (f_outs <= 2 * f_ins);

@@ -62,6 +62,9 @@ const fn bug_in(
 
 /// All of them.
 pub const BUGS: &[Bug] = &[
+    bug("coverage", "centre", "coverage_centre_o = centre", "coverage_centre_o = ~centre"),
+    bug_in("paper", "coverage", "mask", "mask0 & mask1 & mask2;", "mask0 & mask1 | mask2;"),
+    bug_in("paper", "coverage", "area", ".mask_i(coverage_mask_o)", ".mask_i(~coverage_mask_o)"),
     bug("buffer", "stable", "= read_q ? data1_q : data0_q", "= out_ready_i ? data1_q : data0_q"),
     bug(
         "buffer",
@@ -701,7 +704,8 @@ pub const BUGS: &[Bug] = &[
         ".request_valid_o(request_valid_o), .request_ready_i(request_ready_i)",
         ".request_valid_o(request_valid_o), .request_ready_i(response_valid_i)",
     ),
-    bug(
+    bug_in(
+        "paper",
         "mono",
         "stable",
         ".out_valid_o(out_valid), .out_ready_i(pixel_ready_i)",
