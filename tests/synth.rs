@@ -67,7 +67,7 @@ fn a_unit_that_grows_is_noticed() {
 #[test]
 fn what_yosys_refuses_is_told() {
     let copy = copy_of_rtl();
-    plant(copy.path(), "sam_blend.v", "endmodule", "endmodul");
+    plant(copy.path(), "sam_blend.v", "colour_tag_o   = colour", "colour_tag_o   = = colour");
     let cache = folder();
     let synthesiser = Synthesiser { rtl: copy.path().into(), cache: cache.path().into() };
     let error = synthesiser.measure(Target::Blend, &Config::PAPER, Tech::Gates).unwrap_err();

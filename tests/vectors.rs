@@ -289,7 +289,7 @@ fn a_manifest_that_contradicts_the_bench_is_refused_by_line() {
     }
     refused(
         "replay.v",
-        &["manifest.json: field bench.replay.v", "replay.v differs at line 5"],
+        &["manifest.json: field bench.replay.v", "replay.v differs at line 6"],
         |p| {
             p.edit("replay.v", |bytes| {
                 let text = String::from_utf8(bytes.clone()).expect("text");

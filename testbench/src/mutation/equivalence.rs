@@ -45,8 +45,10 @@ impl Netlist {
              abc -g AND -fast; opt_clean; aigmap; write_aiger {file}"
         );
         self.work.run(&YOSYS, self.work.command(&self.yosys).args(["-q", "-p", &script]))?;
-        let proof = format!("read_aiger {file}; strash; scorr; pdr -T {SECONDS}; print_status");
-        // Merging registers has no limit of its own.
+        let proof =
+            format!("read_aiger {file}; strash; lcorr; scorr; pdr -T {SECONDS}; print_status");
+        // Registers alone first: where those of both are the same, so are their multipliers. Merging has no
+        // limit of its own.
         let mut command = Command::new("timeout");
         command.current_dir(self.work.path()).env("PATH", tools::search_path());
         command.arg((2 * SECONDS).to_string()).arg(&abc.program).args(["-c", &proof]);

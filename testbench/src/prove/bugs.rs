@@ -557,13 +557,7 @@ pub const BUGS: &[Bug] = &[
         "primary_done & secondary_done;",
         "primary_done | secondary_done;",
     ),
-    bug_in(
-        "2 slots",
-        "slot_queue",
-        "order",
-        "single_i | ((way_valid",
-        "single_i & ((way_valid",
-    ),
+    bug_in("2 slots", "slot_queue", "order", "single_i | ((way_valid", "single_i & ((way_valid"),
     bug_in(
         "2 slots",
         "slot_queue",
