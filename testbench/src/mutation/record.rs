@@ -32,8 +32,8 @@ pub struct Score {
     pub equivalent: usize,
     /// Mutants reviewed and found equivalent.
     pub reviewed: usize,
-    /// Mutants left.
-    pub survived: usize,
+    /// Mutants left, each with what is known of it.
+    pub survivors: Vec<String>,
 }
 
 impl Score {
@@ -46,27 +46,28 @@ impl Score {
             killed: 0,
             equivalent: 0,
             reviewed: 0,
-            survived: 0,
+            survivors: Vec::new(),
         };
-        for Tested { fate, .. } in tested {
-            *match fate {
-                Fate::Killed(_) => &mut score.killed,
-                Fate::Equivalent => &mut score.equivalent,
-                Fate::Reviewed(_) => &mut score.reviewed,
-                Fate::Missed | Fate::Undecided => &mut score.survived,
-            } += 1;
+        for Tested { mutant, fate } in tested {
+            match fate {
+                Fate::Killed(_) => score.killed += 1,
+                Fate::Equivalent => score.equivalent += 1,
+                Fate::Reviewed(_) => score.reviewed += 1,
+                Fate::Missed => score.survivors.push(format!("{mutant}: some beats show it")),
+                Fate::Undecided => score.survivors.push(format!("{mutant}: undecided")),
+            }
         }
         score
     }
 
     /// All mutants.
     pub fn mutants(&self) -> usize {
-        self.killed + self.equivalent + self.reviewed + self.survived
+        self.killed + self.equivalent + self.reviewed + self.survivors.len()
     }
 
     /// The share of mutants killed, of those that are not equivalent.
     pub fn share(&self) -> f64 {
-        self.killed as f64 / (self.killed + self.survived).max(1) as f64
+        self.killed as f64 / (self.killed + self.survivors.len()).max(1) as f64
     }
 
     /// Whether it is high enough.
@@ -76,7 +77,8 @@ impl Score {
 
     /// The counts and the score, as tables show them.
     pub fn cells(&self) -> [String; 6] {
-        let counts = [self.mutants(), self.killed, self.equivalent, self.reviewed, self.survived];
+        let left = self.survivors.len();
+        let counts = [self.mutants(), self.killed, self.equivalent, self.reviewed, left];
         let [mutants, killed, equivalent, reviewed, survived] = counts.map(|n| n.to_string());
         // Rounded down: 100 % is all of them.
         let score = format!("{:.1} %", (1000.0 * self.share()).floor() / 10.0);
@@ -121,7 +123,7 @@ impl Scores {
         &self.0
     }
 
-    /// The table of the documentation.
+    /// The table of the documentation, and the list of survivors.
     pub fn table(&self) -> String {
         let mut text =
             format!("\n| | configuration | {} |\n|{}\n", HEADINGS.join(" | "), " --- |".repeat(8));
@@ -135,7 +137,11 @@ impl Scores {
                 score.cells().join(" | ")
             );
         }
-        text
+        let survivors = self.0.iter().flat_map(|score| {
+            score.survivors.iter().map(|survivor| format!("- {}: `{survivor}`\n", score.target))
+        });
+        text + "\nThe survivors: place in the Verilog, cell, port and bit, change, and what ABC found.\n\n"
+            + &survivors.collect::<String>()
     }
 }
 
