@@ -434,15 +434,11 @@ module sam_hybrid #(
         assume (`SAM_WAITS(response_valid_i, response_ready_o, {response_rgb_i, response_depth_i}));
     end
 
-    // Clocks that a beat has waited while all round it has always been ready.
-    reg       f_slow;
-    reg [3:0] f_waited;
+    // Clocks that a beat has waited while all round it is ready, whatever was before.
+    reg [5:0] f_waited;
     wire f_eager = left_ready_i & right_ready_i & request_ready_i & (response_valid_i | f_reads == 0)
-                 & beat_valid_i & (setup_valid_i & edges_valid_i | beat_op_i != `SAM_OP_LOAD) & edges_valid_i;
-    always @(posedge clk_i) begin
-        f_slow   <= ~rst_i & (f_slow | ~f_eager);
-        f_waited <= rst_i | beat_ready_o ? 0 : f_waited + 1;
-    end
+                 & beat_valid_i & (setup_valid_i | beat_op_i != `SAM_OP_LOAD) & edges_valid_i;
+    always @(posedge clk_i) f_waited <= rst_i | ~f_eager | beat_ready_o ? 0 : f_waited + 1;
 
     wire f_edges = edges_valid_i & edges_ready_o;
     reg [3:0] f_loads;
@@ -464,8 +460,9 @@ module sam_hybrid #(
         // Edges are taken by a LOAD that was taken, and by each: before its edges is none but what is inside, one or,
         // with 8 slots or more, two.
         p_edges: assert (f_loads <= (SLOTS < 8 ? 1 : 2));
-        // Where all is ready a void beat is taken at once, whatever its setup was: nothing hangs.
-        p_never_hangs: assert (f_slow | ~f_void | f_waited == 0);
+        // Where all is ready a beat waits no longer than all slots take to leave, and 8 clocks, whatever the
+        // setups were: nothing hangs.
+        p_never_hangs: assert (f_waited <= SLOTS + 8);
         // Before a good setup nothing is read or drawn.
         p_void: assert (~f_void | (~request_valid_o & ~left_valid_o & ~right_valid_o));
         // The error stays until it is cleared.

@@ -313,7 +313,8 @@ module sam_minimal #(
         p_eyes: assert (single_i ? ~right_valid_o : (~left_valid_o | ~left_eye_o) & (~right_valid_o | right_eye_o));
         // A setup is taken with its LOAD, and with nothing else.
         p_setup: assert (f_setup == (f_take & beat_op_i == `SAM_OP_LOAD));
-        // Where all is ready a beat waits for a clock at most, whatever the setup was: nothing hangs.
+        // Where all is ready a beat waits for a clock at most, two on one display, whatever the setup was:
+        // nothing hangs.
         p_never_hangs: assert (rst_i | f_waited <= 1 + single_i);
         // Before a good setup nothing is drawn.
         p_void: assert (~f_void | (~left_valid_o & ~right_valid_o));

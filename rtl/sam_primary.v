@@ -184,7 +184,7 @@ module sam_primary #(
         p_first: assert (~beat_valid_o | f_open | beat_op_o == `SAM_OP_LOAD);
         // A LOAD is a row start.
         p_saves: assert (~beat_valid_o | beat_op_o != `SAM_OP_LOAD | beat_save_o);
-        // A covered centre has a covered pixel within the view, unless the mask is cut there.
+        // Without samples a pixel is drawn only where its centre is covered.
         p_mask: assert (ANTIALIAS == 1 | ~beat_valid_o | beat_centre_o | ~beat_mask_o);
         // Lemma: where the LOADs are.
         lemma: assert (f_walks == (visited & is_load) & f_planed == (beat_valid_o & beat_op_o == `SAM_OP_LOAD));

@@ -558,7 +558,8 @@ module sam_slot_queue #(
         p_reads: assert (f_reads <= SLOTS);
         // What leaves of an eye has come before.
         p_nothing_made: assert (f_left + f_leaves_first + f_leaves_other <= f_all);
-        // No more than the slots, the stages and buffers round them and the slot in front are under way.
+        // No more than the slots, the stages and buffers round them and the slot in front are under
+        // way. (This and the next one: until the depth test first drops a pixel.)
         p_nothing_lost: assert (f_dropped | f_all - f_left <= SLOTS + (SHORT ? 4 : 8));
         // The pixels of an eye leave in the order in which they came, as they came.
         p_order: assert (f_dropped | ~(f_leaves_first | f_leaves_other) | f_left != f_number
@@ -566,7 +567,8 @@ module sam_slot_queue #(
         // Secondaries are read in the order in which they came, each where it is,
         p_asks: assert (~f_asked | f_asks != f_number
                         | (f_seconds + f_comes_second > f_asks & {request_eye_o, request_x_o, request_y_o} == f_at));
-        // and not while an earlier pixel of its eye is under way to the same place.
+        // and not while an earlier pixel of its eye is under way to the same place (until the depth test
+        // first drops a pixel).
         p_one_place: assert (f_dropped | ~f_asks_it | f_at != {f_eye, f_place} | f_before == f_left_there);
         // A pixel goes to blend with the background and the colour of its own read.
         p_pixel: assert (~f_shows | {pixel_rgba_o, pixel_area_o, pixel_background_o} == {f_rgba, f_area, f_answer[D +: `SAM_RGB_BITS]});

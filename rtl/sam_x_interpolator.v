@@ -103,8 +103,8 @@ module sam_x_interpolator #(
                         | (beat_op_i == `SAM_OP_RESERVED) | moves;
     // A negative x is, read as unsigned, larger than any width.
     assign pixel_inside_o = acc_q[X-1:F] < {{(X - F - `SAM_COORDINATE_BITS(SUBPIXEL_BITS)){1'b0}}, width_i};
-    // 2 frac < 1/2 + G1 at twice the scale: always so in the left half of the pixel, and in the
-    // right half when twice the distance from the centre is below G1.
+    // 2 frac < 1 + G1: always so in the left half of the pixel, and in the right half when twice the
+    // distance from the centre is below G1.
     assign pixel_near_o = ~acc_q[F-1] | ({1'b0, acc_q[F-2:0], 1'b0} < step_q);
 
 `ifdef FORMAL
@@ -159,7 +159,7 @@ module sam_x_interpolator #(
         p_row_moves: assert (~f_held | f_op != `SAM_OP_ROW | pixel_move_o == f_moved);
         // A load does not move.
         p_load_moves: assert (~f_held | f_op != `SAM_OP_LOAD | ~pixel_move_o);
-        // A beat is near when twice its fraction is below 1/2 and G1.
+        // A beat is near when twice its fraction is below 1 + G1.
         p_near: assert (~f_held | pixel_near_o == ({f_acc[F-1:0], 1'b0} < f_step + (1 << F)));
         // A pixel is inside where 0 <= x < width.
         p_inside: assert (~f_held | pixel_inside_o == (~f_acc[X-1] & f_x < width_i));

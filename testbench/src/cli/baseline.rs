@@ -49,7 +49,7 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
         rows.scenes.push(measure(name, &scene::open(name, args.size, None)?)?);
     }
     drop(spinner);
-    let root = workspace();
+    let root = if args.record { Some(super::root()?) } else { workspace() };
     let areas = match &root {
         Some(root) => Areas::recorded(root, "default")?,
         None => None,

@@ -94,6 +94,22 @@ impl Effort {
     }
 }
 
+/// Properties that show after more clocks, when each of them is tried by itself.
+const DEEP: [(&str, u32); 5] = [
+    ("p_never_hangs", 30),
+    ("p_left_stable", 18),
+    ("p_right_stable", 18),
+    ("p_request_stable", 18),
+    ("p_stable", 18),
+];
+
+/// The clocks of a property of a module whose others have `bound`.
+fn deep(property: &str, bound: u32) -> u32 {
+    // Only systems are that deep.
+    let deeper = DEEP.iter().find(|(label, _)| bound == 12 && *label == property);
+    deeper.map_or(bound, |(_, clocks)| *clocks)
+}
+
 /// Seconds after which a prover is stopped.
 const LIMIT: u32 = 60;
 
@@ -102,7 +118,7 @@ type Variant = (&'static str, &'static str, &'static [(&'static str, u32)]);
 
 /// Builds beside those of the named configurations: narrow ones, where wide ones would take too long,
 /// and ones that the systems use.
-const VARIANTS: [Variant; 8] = [
+const VARIANTS: [Variant; 13] = [
     ("filter_division", "three terms", &[("FILTER_TERMS", 3)]),
     ("edge_interpolator", "3 bits", &[("BITS", 3), ("SLOPE_BITS", 2), ("TILT", 1)]),
     ("edge_interpolator", "depth", &[("BITS", 43), ("SLOPE_BITS", 43), ("TILT", 0)]),
@@ -111,7 +127,19 @@ const VARIANTS: [Variant; 8] = [
     ("buffer", "40 bits", &[("WIDTH", 40)]),
     ("polygon", "minimal", &[("SUBPIXEL_BITS", 8), ("LEND", 0)]),
     ("slot_queue", "2 slots", &[("SUBPIXEL_BITS", 4), ("SLOTS", 2)]),
+    ("slot_queue", "8 slots", &[("SUBPIXEL_BITS", 4), ("SLOTS", 8)]),
+    ("hybrid_back", "8 slots", EIGHT_SLOTS),
+    ("hybrid", "8 slots", EIGHT_SLOTS_FILTERED),
+    ("mono", "8 slots", &[("SUBPIXEL_BITS", 4), ("SLOTS", 8)]),
+    ("stereo", "8 slots", EIGHT_SLOTS_FILTERED),
 ];
+
+/// The architecture of many slots with as few of them and as little else as there can be.
+const EIGHT_SLOTS: &[(&str, u32)] =
+    &[("SUBPIXEL_BITS", 4), ("DEPTH_INTERPOLATED", 0), ("SLOTS", 8)];
+/// The same of what has a filter.
+const EIGHT_SLOTS_FILTERED: &[(&str, u32)] =
+    &[("SUBPIXEL_BITS", 4), ("FILTER_TERMS", 2), ("DEPTH_INTERPOLATED", 0), ("SLOTS", 8)];
 
 /// Runs the provers and keeps what they find.
 #[derive(Debug)]
@@ -204,7 +232,8 @@ impl Prover {
         let clean = self.sources(bug.module)?;
         let mut planted = clean.clone();
         bug.plant(&mut planted)?;
-        let step = self.fails(bug, &planted, Effort::of(bug.module).bound)?;
+        let bound = deep(&format!("p_{}", bug.property), Effort::of(bug.module).bound);
+        let step = self.fails(bug, &planted, bound)?;
         match step {
             Some(step) if self.fails(bug, &clean, step + 1)?.is_some() => {
                 Err(bug.fault("the property fails without the bug"))
@@ -335,17 +364,39 @@ impl Task<'_> {
         Ok(names.map(|(_, name)| name.to_owned()).collect())
     }
 
-    /// All properties together or, where that takes too long, each by itself with the lemmas.
+    /// All properties, then the deep ones for more clocks.
     fn prove(&self, effort: Effort) -> Result<BTreeMap<String, Verdict>, FlowError> {
         let labels = self.labels()?;
+        let mut verdicts = self.prove_all(&labels, effort)?;
+        for (label, verdict) in &mut verdicts {
+            let clocks = deep(label, effort.bound);
+            let Verdict::Bounded(so_far) = *verdict else { continue };
+            if clocks > effort.bound {
+                let others: Vec<String> = labels.iter().filter(|l| *l != label).cloned().collect();
+                *verdict = match self.bounded(&others, clocks)? {
+                    Run::Passed(_) => Verdict::Bounded(clocks),
+                    Run::Failed { step, .. } => Verdict::Fails(step),
+                    Run::Stopped(reached) => Verdict::Bounded(reached.max(so_far)),
+                };
+            }
+        }
+        Ok(verdicts)
+    }
+
+    /// All properties together or, where that takes too long, each by itself with the lemmas.
+    fn prove_all(
+        &self,
+        labels: &[String],
+        effort: Effort,
+    ) -> Result<BTreeMap<String, Verdict>, FlowError> {
         let (alone, lemmas): (Vec<_>, Vec<_>) =
             labels.iter().cloned().partition(|label| name(label).is_some());
         if effort.bound == 1 && self.holds_in_every_state()? {
-            return Ok(labels.into_iter().map(|label| (label, Verdict::Induction(0))).collect());
+            return Ok(labels.iter().map(|label| (label.clone(), Verdict::Induction(0))).collect());
         }
         // Without registers nothing is gained by proving all at once.
         if effort.induction > 1 || alone.len() == 1 {
-            let (verdicts, stopped) = self.prove_some(&labels, &[], effort)?;
+            let (verdicts, stopped) = self.prove_some(labels, &[], effort)?;
             if !stopped || alone.len() == 1 {
                 return Ok(verdicts);
             }
