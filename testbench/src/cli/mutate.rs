@@ -11,7 +11,7 @@ const MOST: i64 = 60_000;
 
 #[derive(Debug, Args)]
 pub(super) struct MutateArgs {
-    /// Units and systems (see `wheatstone list`); none means all units and the minimal system
+    /// Units and systems (see `wheatstone list`); none means all but mono, hybrid and stereo
     #[arg(value_name = "TARGET", value_parser = parse_target)]
     targets: Vec<Target>,
     /// Mutants of each target
