@@ -1,5 +1,5 @@
 //! Formal proofs: the short set holds as recorded; every property has a sentence, a record and a bug that
-//! it catches; a netlist is its Verilog, and one that is not is noticed.
+//! it catches; what is proved without registers is not proved of a bug; netlists are their Verilog.
 
 use std::path::Path;
 use wheatstone_golden::config::Config;
@@ -96,6 +96,21 @@ fn a_text_without_a_bug_in_it_is_not_caught() {
     let absent = Bug { find: "nowhere in the file", ..bug };
     let error = prover(&rtl()).catches(&absent).unwrap_err().to_string();
     assert!(error.contains("the text occurs 0 times, not once"), "{error}");
+}
+
+/// Modules without registers are proved in a way of their own, which must not prove everything.
+#[test]
+fn what_has_no_registers_and_is_wrong_is_not_proved() {
+    let copy = copy_of_rtl();
+    plant(
+        copy.path(),
+        "sam_coverage.v",
+        "coverage_centre_o = centre",
+        "coverage_centre_o = ~centre",
+    );
+    let wrong = proved(&prover(copy.path()), "coverage");
+    assert!(matches!(wrong.verdict("centre"), Some(Verdict::Fails(_))), "{wrong:?}");
+    assert!(!matches!(wrong.verdict("area"), Some(Verdict::Fails(_))), "{wrong:?}");
 }
 
 #[test]

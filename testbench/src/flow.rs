@@ -100,6 +100,9 @@ pub(crate) struct Folder {
     module: String,
 }
 
+/// Exit status of a command of [`Folder::limited`] that was stopped.
+pub(crate) const STOPPED: i32 = 124;
+
 impl Folder {
     /// A folder below `cache`.
     pub fn of(cache: &Path, module: &str, sources: &Sources) -> Result<Folder, FlowError> {
@@ -137,6 +140,15 @@ impl Folder {
         if let Some(cache) = tools::python_cache() {
             command.env("YOWASP_CACHE_DIR", cache);
         }
+        command
+    }
+
+    /// A command that works in this folder and is stopped, with all that it has started, after so many
+    /// seconds; its exit status is then [`STOPPED`].
+    pub fn limited(&self, tool: &Found, seconds: u32) -> Command {
+        let mut command = Command::new("timeout");
+        command.current_dir(self.folder.path()).env("PATH", tools::search_path());
+        command.arg(seconds.to_string()).arg(&tool.program);
         command
     }
 

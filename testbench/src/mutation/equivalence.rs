@@ -8,10 +8,10 @@
 //! is slower by a clock counts as different.
 
 use super::netlist::{Mutant, Netlist, DESIGN};
+use crate::flow::STOPPED;
 use crate::synth::SynthError;
-use crate::tools::{self, YOSYS, YOSYS_ABC};
+use crate::tools::{YOSYS, YOSYS_ABC};
 use std::fmt::Write;
-use std::process::Command;
 use wheatstone_golden::interface::{Direction, Field, Interface, Stream};
 
 /// Seconds that a proof may take.
@@ -49,11 +49,9 @@ impl Netlist {
             format!("read_aiger {file}; strash; lcorr; scorr; pdr -T {SECONDS}; print_status");
         // Registers alone first: where those of both are the same, so are their multipliers. Merging has no
         // limit of its own.
-        let mut command = Command::new("timeout");
-        command.current_dir(self.work.path()).env("PATH", tools::search_path());
-        command.arg((2 * SECONDS).to_string()).arg(&abc.program).args(["-c", &proof]);
-        let output = self.work.output(&mut command)?;
-        if output.status.code() == Some(124) {
+        let mut command = self.work.limited(&abc, 2 * SECONDS);
+        let output = self.work.output(command.args(["-c", &proof]))?;
+        if output.status.code() == Some(STOPPED) {
             return Ok(Verdict::Open);
         }
         let text = String::from_utf8_lossy(&output.stdout);

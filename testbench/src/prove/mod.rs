@@ -15,11 +15,10 @@ pub use property::{name, properties, Property};
 
 use crate::flow::{self, FlowError, Folder};
 use crate::sources::{self, Sources};
-use crate::tools::{self, Found, YICES, YOSYS, YOSYS_ABC, YOSYS_SMTBMC};
+use crate::tools::{Found, YICES, YOSYS, YOSYS_ABC, YOSYS_SMTBMC};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::process::Command;
 use std::time::Instant;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
@@ -63,6 +62,8 @@ pub struct Effort {
     pub induction: u32,
     /// Clocks from reset where that does not close.
     pub bound: u32,
+    /// Labels of properties that are then tried by themselves, and for how many clocks.
+    deep: &'static [(&'static str, u32)],
 }
 
 impl Effort {
@@ -79,7 +80,8 @@ impl Effort {
             "primary" => [2, 14],
             _ => [3, 10],
         };
-        Effort { induction, bound }
+        let is_system = ["hybrid", "stereo", "mono", "hybrid_back"].contains(&module);
+        Effort { induction, bound, deep: if is_system { &DEEP } else { &[] } }
     }
 
     /// Whether a module is in the short set: those whose first build takes a few seconds.
@@ -90,11 +92,17 @@ impl Effort {
 
     /// What a default test can afford.
     pub fn quick(self) -> Effort {
-        Effort { bound: self.bound.min(4), ..self }
+        Effort { bound: self.bound.min(4), deep: &[], ..self }
+    }
+
+    /// The clocks that a property is tried for in the end.
+    fn clocks(&self, label: &str) -> u32 {
+        let deep = self.deep.iter().find(|(deep, _)| *deep == label);
+        deep.map_or(self.bound, |(_, clocks)| *clocks)
     }
 }
 
-/// Properties that show after more clocks, when each of them is tried by itself.
+/// Properties of systems that show after more clocks, when each of them is tried by itself.
 const DEEP: [(&str, u32); 5] = [
     ("p_never_hangs", 30),
     ("p_left_stable", 18),
@@ -102,13 +110,6 @@ const DEEP: [(&str, u32); 5] = [
     ("p_request_stable", 18),
     ("p_stable", 18),
 ];
-
-/// The clocks of a property of a module whose others have `bound`.
-fn deep(property: &str, bound: u32) -> u32 {
-    // Only systems are that deep.
-    let deeper = DEEP.iter().find(|(label, _)| bound == 12 && *label == property);
-    deeper.map_or(bound, |(_, clocks)| *clocks)
-}
 
 /// Seconds after which a prover is stopped.
 const LIMIT: u32 = 60;
@@ -232,7 +233,7 @@ impl Prover {
         let clean = self.sources(bug.module)?;
         let mut planted = clean.clone();
         bug.plant(&mut planted)?;
-        let bound = deep(&format!("p_{}", bug.property), Effort::of(bug.module).bound);
+        let bound = Effort::of(bug.module).clocks(&format!("p_{}", bug.property));
         let step = self.fails(bug, &planted, bound)?;
         match step {
             Some(step) if self.fails(bug, &clean, step + 1)?.is_some() => {
@@ -369,7 +370,7 @@ impl Task<'_> {
         let labels = self.labels()?;
         let mut verdicts = self.prove_all(&labels, effort)?;
         for (label, verdict) in &mut verdicts {
-            let clocks = deep(label, effort.bound);
+            let clocks = effort.clocks(label);
             let Verdict::Bounded(so_far) = *verdict else { continue };
             if clocks > effort.bound {
                 let others: Vec<String> = labels.iter().filter(|l| *l != label).cloned().collect();
@@ -484,17 +485,9 @@ impl Task<'_> {
         let mut command = self.folder.command(&self.programs.yosys);
         self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
         let proof = "read_aiger miter.aig; strash; comb; fraig; iprove; print_status";
-        let mut command = self.limited(&self.programs.abc);
+        let mut command = self.folder.limited(&self.programs.abc, LIMIT);
         let output = self.folder.output(command.args(["-c", proof]))?;
         Ok(String::from_utf8_lossy(&output.stdout).contains("Status = 1 "))
-    }
-
-    /// Calls a program that is stopped after [`LIMIT`].
-    fn limited(&self, program: &Found) -> Command {
-        let mut command = Command::new("timeout");
-        command.current_dir(self.folder.path()).env("PATH", tools::search_path());
-        command.arg(LIMIT.to_string()).arg(&program.program);
-        command
     }
 
     /// Runs the prover without some assertions.
@@ -505,7 +498,7 @@ impl Task<'_> {
         let mut command = self.folder.command(&self.programs.yosys);
         self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
         // It has no limit of its own, and would leave its solver behind if it alone were stopped.
-        let mut command = self.limited(&self.programs.smtbmc);
+        let mut command = self.folder.limited(&self.programs.smtbmc, LIMIT);
         command.args(["-s", "yices"]).args(mode).args(["-t", &clocks.to_string(), "model.smt2"]);
         let output = self.folder.output(&mut command)?;
         let text = String::from_utf8_lossy(&output.stdout);
@@ -527,9 +520,8 @@ impl Task<'_> {
             }
             return Ok(Run::Failed { step, labels });
         }
-        // Status 124: stopped.
         match output.status.code() {
-            Some(124) => Ok(Run::Stopped(step)),
+            Some(flow::STOPPED) => Ok(Run::Stopped(step)),
             _ => {
                 let text = [output.stdout, output.stderr].concat();
                 Err(self.folder.failed(&YOSYS_SMTBMC, &String::from_utf8_lossy(&text)))

@@ -3,9 +3,8 @@
 
 use super::{tenths, Prover, LIMIT};
 use crate::flow::{self, FlowError};
-use crate::tools::{self, YOSYS};
+use crate::tools::YOSYS;
 use serde::{Deserialize, Serialize};
-use std::process::Command;
 use std::time::Instant;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
@@ -40,12 +39,10 @@ impl Prover {
         let inputs = [&yosys.text, &script, &limit].map(|text| text.as_bytes());
         flow::cached(&self.cache, module, &sources, &inputs, |folder| {
             let started = Instant::now();
-            let mut command = Command::new("timeout");
-            command.current_dir(folder.path()).env("PATH", tools::search_path());
-            command.arg(&limit).arg(&yosys.program).args(["-q", "-p", &script]);
-            let output = folder.output(&mut command)?;
+            let mut command = folder.limited(&yosys, LIMIT);
+            let output = folder.output(command.args(["-q", "-p", &script]))?;
             let (points, open) = match output.status.code() {
-                Some(124) => (0, 0),
+                Some(flow::STOPPED) => (0, 0),
                 Some(0) => {
                     let stat = folder.read("stat")?;
                     points(&stat).ok_or_else(|| folder.failed(&YOSYS, &stat))?
