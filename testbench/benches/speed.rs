@@ -20,7 +20,7 @@ use wheatstone_golden::stereo::{Job as Scene, System};
 use wheatstone_golden::targets::Target;
 use wheatstone_golden::texture::Lookup;
 use wheatstone_testbench::cases;
-use wheatstone_testbench::regression::{model_probes, run_scene, stalls_of, Setting};
+use wheatstone_testbench::regression::{model_probes, run_scene, Setting};
 use wheatstone_testbench::tools::Toolchain;
 use wheatstone_testbench::{compare_speed, Builder, Job, Library, Spec, Stalls};
 
@@ -69,7 +69,7 @@ fn compare_loops(build: &dyn Fn(Target, bool) -> Result<Library, Failure>) -> Re
             statics: &case.statics,
             tables: &tables,
             flags: &case.flags,
-            stalls: stalls_of(8),
+            stalls: Stalls::of_seed(8),
             ..Job::default()
         };
         let speed = compare_speed(&library, &job, ROUNDS)?;

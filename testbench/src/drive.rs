@@ -21,6 +21,7 @@ use crate::cursors::{Cursors, Words};
 use crate::job::{Job, Limits, Responder};
 use crate::model::{Library, Model, Seen};
 use crate::outcome::Outcome;
+use crate::stalls::Pattern;
 use report::payload;
 use wheatstone_golden::interface::{Direction, Table};
 
@@ -55,6 +56,8 @@ pub(crate) struct Run<'a> {
     tables: Vec<Option<&'a Table>>,
     cursors: Cursors<'a>,
     gates: &'a [u32],
+    /// Outputs are ready for beats only that were offered in the last cycle and not taken.
+    until_valid: bool,
     /// Random words, for the fields of inputs that offer nothing.
     junk: &'a [Words; JUNK],
     inputs: u32,
@@ -92,6 +95,7 @@ impl<'a> Run<'a> {
         Run {
             cursors: Cursors::new(library, &values),
             gates,
+            until_valid: job.stalls.back_pressure == Pattern::UntilValid,
             junk,
             inputs: layout.mask(Direction::Input),
             outputs: layout.mask(Direction::Output),
@@ -126,7 +130,8 @@ impl<'a> Run<'a> {
             state.offered |= opening;
             let emptied = state.freed & !opening;
             let pokes = u64::from(opening) | u64::from(emptied) << 32;
-            let drive = state.offered | (gate & self.outputs);
+            let willing = if self.until_valid { state.held } else { self.outputs };
+            let drive = state.offered | (gate & willing);
             let junk = &self.junk[cycle as usize % JUNK];
             let Seen { seen, wrong } = model.cycle(cycle, drive, pokes, &mut self.cursors, junk);
             let (seen, ended) = (seen as u32, (seen >> 32) as u32);

@@ -20,11 +20,14 @@ pub enum Pattern {
     Bursts,
     /// On single clocks, up to 16 clocks apart.
     Gaps,
+    /// Of outputs alone: until the beat was offered for a clock. `valid` must not wait for `ready`, so
+    /// every beat comes none the less; what waits hangs.
+    UntilValid,
 }
 
 impl Pattern {
-    /// All patterns.
-    pub const ALL: [Pattern; 6] = [
+    /// Those that inputs can have.
+    pub const IDLE: [Pattern; 6] = [
         Pattern::None,
         Pattern::Random25,
         Pattern::Random50,
@@ -32,6 +35,11 @@ impl Pattern {
         Pattern::Bursts,
         Pattern::Gaps,
     ];
+    /// Those that outputs can have: all patterns, the inputs' first.
+    pub const BACK_PRESSURE: [Pattern; 7] = {
+        let [a, b, c, d, e, f] = Pattern::IDLE;
+        [a, b, c, d, e, f, Pattern::UntilValid]
+    };
 
     /// Lower-case name.
     pub fn name(self) -> &'static str {
@@ -42,21 +50,22 @@ impl Pattern {
             Pattern::Random75 => "random75",
             Pattern::Bursts => "bursts",
             Pattern::Gaps => "gaps",
+            Pattern::UntilValid => "until_valid",
         }
     }
 
     /// The pattern of that name.
     pub fn named(name: &str) -> Option<Pattern> {
-        Pattern::ALL.into_iter().find(|pattern| pattern.name() == name)
+        Pattern::BACK_PRESSURE.into_iter().find(|pattern| pattern.name() == name)
     }
 
-    /// For every clock whether the stream may go on; `clocks` is a multiple of 64.
+    /// For every clock whether the stream may go on, as far as the clock tells; `clocks` is a multiple of 64.
     fn bits(self, clocks: usize, random: &mut Rng) -> BitVec<u64, Lsb0> {
         let words = |word: &mut dyn FnMut() -> u64| {
             BitVec::from_vec((0..clocks / 64).map(|_| word()).collect())
         };
         match self {
-            Pattern::None => words(&mut || u64::MAX),
+            Pattern::None | Pattern::UntilValid => words(&mut || u64::MAX),
             Pattern::Random25 => words(&mut || random.u64(..) | random.u64(..)),
             Pattern::Random50 => words(&mut || random.u64(..)),
             Pattern::Random75 => words(&mut || random.u64(..) & random.u64(..)),
@@ -92,14 +101,27 @@ pub struct Stalls {
 impl Stalls {
     /// No stalls at all.
     pub const NONE: Stalls = Stalls { idle: Pattern::None, back_pressure: Pattern::None, seed: 0 };
+    /// Pairs of an idle and a back-pressure pattern.
+    pub const PAIRS: usize = Pattern::IDLE.len() * Pattern::BACK_PRESSURE.len();
     /// Clocks after which the bits repeat: a power of two.
     pub const PERIOD: usize = 1 << 14;
 
+    /// The pair of that number, all back-pressure patterns of an idle pattern in a row.
+    fn pair(number: usize) -> Stalls {
+        let width = Pattern::BACK_PRESSURE.len();
+        let (idle, back_pressure) =
+            (Pattern::IDLE[number / width], Pattern::BACK_PRESSURE[number % width]);
+        Stalls { idle, back_pressure, seed: 0 }
+    }
+
+    /// The stalls of a seed: each seed another pair, [`Stalls::PAIRS`] seeds all of them.
+    pub fn of_seed(seed: u64) -> Stalls {
+        Stalls { seed, ..Stalls::pair((seed % Stalls::PAIRS as u64) as usize) }
+    }
+
     /// Every idle pattern with every back-pressure pattern.
     pub fn crossed(seed: u64) -> impl Iterator<Item = Stalls> {
-        Pattern::ALL.into_iter().flat_map(move |idle| {
-            Pattern::ALL.into_iter().map(move |back_pressure| Stalls { idle, back_pressure, seed })
-        })
+        (0..Stalls::PAIRS).map(move |pair| Stalls { seed, ..Stalls::pair(pair) })
     }
 
     /// For every clock of a period, a mask of the streams that may go on; `inputs` has the bits
@@ -142,6 +164,8 @@ mod tests {
             assert!(gates.iter().all(|gate| gate >> 1 == 1));
             assert_eq!(Pattern::named(pattern.name()), Some(pattern));
         }
-        assert_eq!(Stalls::crossed(1).count(), 36);
+        let crossed: Vec<Stalls> = Stalls::crossed(1).collect();
+        assert_eq!(crossed.len(), 42);
+        assert!((1..42).all(|n| !crossed[..n].contains(&crossed[n])));
     }
 }

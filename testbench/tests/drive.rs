@@ -96,6 +96,17 @@ fn a_beat_that_is_taken_back_is_found() {
 }
 
 #[test]
+fn an_output_that_waits_for_ready_hangs() {
+    let sums = sums(500, 6);
+    let patient = run_adder(11, &sums, back_pressure(Pattern::Random75));
+    assert!(patient.passed().is_some(), "no beat shows it: {patient}");
+    let Outcome::Hung(hung) = run_adder(11, &sums, back_pressure(Pattern::UntilValid)) else {
+        panic!("not hung")
+    };
+    assert_eq!((hung.streams[1].done, hung.streams[1].valid), (100, false));
+}
+
+#[test]
 fn a_beat_too_many_is_found() {
     let found = mismatch(run_adder(6, &sums(100, 7), Stalls::NONE));
     assert_eq!((&found.fault, found.beat), (&Fault::Surplus, 100));

@@ -76,7 +76,7 @@ pub struct Bin {
     mode: u8,
     /// Terms of the division: 0, 2 or 3.
     terms: u32,
-    /// Places of the stall patterns in the list of all.
+    /// Idle and back-pressure pattern, as [`places`].
     stalls: [usize; 2],
     /// Ratio and place of the signs in [`SIGNS`], where a secondary is derived.
     secondary: Option<(Ratio, usize)>,
@@ -84,7 +84,7 @@ pub struct Bin {
 
 impl fmt::Display for Bin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [idle, pressure] = self.stalls.map(|n| Pattern::ALL[n].name());
+        let [idle, pressure] = self.stalls.map(|n| Pattern::BACK_PRESSURE[n].name());
         write!(f, "{}, {}", Mode::NAMES[usize::from(self.mode)], division_name(self.terms))?;
         write!(f, ", idle {idle}, back-pressure {pressure}")?;
         if let Some((ratio, signs)) = self.secondary {
@@ -122,8 +122,7 @@ pub struct Bins(BTreeMap<Bin, u64>);
 
 impl Default for Bins {
     fn default() -> Bins {
-        let patterns = 0..Pattern::ALL.len();
-        let stalls = patterns.clone().flat_map(|i| patterns.clone().map(move |b| [i, b]));
+        let stalls = Stalls::crossed(0).map(places);
         let of_stalls = |stalls: [usize; 2]| {
             let of_mode = move |mode: u8| {
                 let derived = Ratio::ALL.into_iter();
@@ -174,12 +173,17 @@ impl Bins {
     }
 }
 
+/// Places of the patterns in the list of those of back-pressure, which has all.
+fn places(stalls: Stalls) -> [usize; 2] {
+    let list = Pattern::BACK_PRESSURE;
+    [stalls.idle, stalls.back_pressure].map(|p| list.iter().position(|q| *q == p).unwrap_or(0))
+}
+
 /// The bin of every polygon, or part of one, that a case offers.
 fn polygons(case: &Case, stalls: Stalls) -> Vec<Bin> {
     let interface = case.interface();
     let records = Records::new(case, &interface);
-    let place = |pattern: Pattern| Pattern::ALL.iter().position(|p| *p == pattern).unwrap_or(0);
-    let stalls = [place(stalls.idle), place(stalls.back_pressure)];
+    let stalls = places(stalls);
     let terms = terms(&case.config);
     let bin = |n: usize| {
         let mode = records.field("setup", "mode", n)?;

@@ -15,7 +15,7 @@ pub use equivalence::Verdict;
 pub use netlist::Mutant;
 
 use crate::cases::{self, Case};
-use crate::regression::{batches, directed_stalls, run_case, stalls_of, RegressionError, Setting};
+use crate::regression::{batches, directed_stalls, run_case, RegressionError, Setting};
 use crate::synth::SynthError;
 use crate::{Builder, Library, Spec, Stalls};
 use netlist::Netlist;
@@ -77,7 +77,11 @@ pub fn regression(
         stalls.map(move |stalls| Run { case: case.clone(), seed, stalls })
     });
     let random = batches(target, config, seed, beats);
-    directed.chain(random.map(|b| Run { case: b.case, seed: b.seed, stalls: stalls_of(b.seed) }))
+    directed.chain(random.map(|b| Run {
+        case: b.case,
+        seed: b.seed,
+        stalls: Stalls::of_seed(b.seed),
+    }))
 }
 
 /// What became of a mutant.

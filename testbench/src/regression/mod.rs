@@ -37,9 +37,9 @@ pub const UNIT_BEATS: u64 = 1_000_000;
 /// Random beats of a system in the default regression.
 pub const SYSTEM_BEATS: u64 = 200_000;
 /// Random beats of one batch: with these, a unit's default regression crosses all stall patterns.
-const BATCH: u64 = 28_000;
+const BATCH: u64 = 23_800;
 /// Beats of a system's batch, which has stalls of its own too.
-const SYSTEM_BATCH: u64 = 5_600;
+const SYSTEM_BATCH: u64 = 4_760;
 /// Name of the case of random beats.
 const RANDOM: &str = "random";
 /// Last cycle of waveforms that are written of a case that passed.
@@ -232,13 +232,6 @@ impl Models<'_> {
     }
 }
 
-/// The stalls of a seed: each seed another pair, 36 seeds all of them.
-pub fn stalls_of(seed: u64) -> Stalls {
-    let n = (seed % 36) as usize;
-    let (idle, back_pressure) = (Pattern::ALL[n / 6], Pattern::ALL[n % 6]);
-    Stalls { idle, back_pressure, seed }
-}
-
 /// Runs a plan; entries come in the order of the targets.
 pub fn run(
     plan: &Plan,
@@ -396,7 +389,7 @@ fn try_case(
 pub(crate) fn directed_stalls(case: &Case, seed: u64) -> Vec<Stalls> {
     let crossed = [
         Stalls::NONE,
-        Stalls { idle: Pattern::Random50, back_pressure: Pattern::None, seed },
+        Stalls { idle: Pattern::Random50, back_pressure: Pattern::UntilValid, seed },
         Stalls { idle: Pattern::None, back_pressure: Pattern::Bursts, seed },
         Stalls { idle: Pattern::Gaps, back_pressure: Pattern::Random50, seed },
     ];
@@ -453,7 +446,7 @@ fn random(ground: &Ground) -> Result<Entry, RegressionError> {
     let mut entry = Entry::new(target, RANDOM);
     for Batch { seed, size, case } in batches(target, &plan.settings.config, plan.seed, plan.beats)
     {
-        let setting = ground.setting(seed, stalls_of(seed));
+        let setting = ground.setting(seed, Stalls::of_seed(seed));
         try_case(ground, &mut entry, &case, Some(size), &setting)?;
         if !entry.passed() {
             break;
@@ -469,8 +462,9 @@ fn draw(ground: &Ground, scene: &NamedScene) -> Result<Entry, RegressionError> {
     let (plan, target) = (ground.plan, ground.target);
     let mut entry = Entry::new(target, &scene.name);
     let steady = Some(plan.settings.latency.unwrap_or(MEASURED_LATENCY));
-    let stalled = stalls_of(plan.seed.wrapping_mul(7).wrapping_add(8));
-    let back_pressure = Pattern::ALL[1 + (plan.seed % 5) as usize];
+    let stalled = Stalls::of_seed(plan.seed.wrapping_mul(7).wrapping_add(8));
+    let [_, patterns @ ..] = Pattern::BACK_PRESSURE;
+    let back_pressure = patterns[(plan.seed % patterns.len() as u64) as usize];
     let full = Stalls { idle: Pattern::None, back_pressure, seed: plan.seed };
     let latency = plan.settings.latency;
     for (stalls, latency) in [(Stalls::NONE, steady), (stalled, latency), (full, latency)] {
