@@ -13,39 +13,6 @@ use wheatstone_testbench::settings::Settings;
 use wheatstone_testbench::tools::{Doctor, Toolchain};
 use wheatstone_testbench::Builder;
 
-/// The published exponents p, q for n = 1 to 29 (paper, section 5.6.1, as recomputed).
-pub const PUBLISHED_EXPONENTS: [(u32, u32); 29] = [
-    (1, 1),
-    (2, 2),
-    (2, 4),
-    (3, 3),
-    (3, 4),
-    (3, 5),
-    (3, 6),
-    (4, 4),
-    (4, 4),
-    (4, 5),
-    (4, 5),
-    (4, 6),
-    (4, 6),
-    (4, 7),
-    (4, 8),
-    (5, 5),
-    (5, 5),
-    (5, 5),
-    (5, 6),
-    (5, 6),
-    (5, 6),
-    (5, 6),
-    (5, 6),
-    (5, 7),
-    (5, 7),
-    (5, 7),
-    (5, 8),
-    (5, 8),
-    (5, 8),
-];
-
 /// The folder of the workspace.
 pub fn workspace() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
