@@ -4,7 +4,7 @@
 use std::path::Path;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
-use wheatstone_testbench::prove::record::{Proved, Record};
+use wheatstone_testbench::prove::record::{Clocks, Proved, Record};
 use wheatstone_testbench::prove::{properties, Bug, Effort, Prover, Verdict, BUGS};
 use wheatstone_tests::*;
 
@@ -35,7 +35,7 @@ fn the_short_set_holds() {
     };
     let failed: Vec<&Proved> = all.iter().filter(fails).collect();
     assert!(failed.is_empty(), "{failed:#?}");
-    let faults = record().faults(&all);
+    let faults = record().faults(&all, Clocks::Ignore);
     assert!(
         faults.is_empty(),
         "{}\nif this is meant: wheatstone prove --record",

@@ -29,7 +29,7 @@ fn the_regression_notices_mutants_and_as_many_as_recorded() {
     let tested = mutated.test(regression(TARGET, &CONFIG, None), reason).expect("it runs");
     let score = Score::new(TARGET, "default", SEED, &tested);
     assert!(score.passes() && score.mutants() == COUNT as usize, "{score:?}");
-    assert_eq!(reviews.stale(TARGET, "default", (COUNT, SEED), &tested), [] as [&_; 0]);
+    assert_eq!(reviews.stale(TARGET, "default", &tested), [] as [&_; 0]);
     let scores = Scores::read(workspace()).unwrap_or_else(|error| panic!("{error}"));
     assert!(scores.all().contains(&score), "wheatstone mutate --record, then generate: {score:?}");
     // The proof and the simulation agree on those that the simulation killed.

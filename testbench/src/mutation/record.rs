@@ -1,10 +1,10 @@
 //! The committed files about mutants: the scores, with the table that is made of them, and the list of
 //! those that were reviewed.
 
-use super::{Fate, Mutant, Tested, COUNT, SEED};
+use super::{Fate, Tested};
 use crate::synth::record::{read_record, RecordError};
 use serde::{Deserialize, Serialize};
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 use std::path::Path;
 use wheatstone_golden::picture::{write_file, WriteError};
 use wheatstone_golden::targets::Target;
@@ -22,7 +22,7 @@ pub const LEAST_SCORE: f64 = 0.95;
 pub struct Score {
     /// The target's name.
     pub target: String,
-    /// The configuration, with the parameters that were changed.
+    /// The configuration, with the parameters that were changed; [`super::golden::CONFIG`] of the model.
     pub config: String,
     /// Seed of the choice of mutants.
     pub seed: u64,
@@ -38,7 +38,7 @@ pub struct Score {
 
 impl Score {
     /// Counts the mutants of a target.
-    pub fn new(target: Target, config: &str, seed: u64, tested: &[Tested]) -> Score {
+    pub fn new<M: Display>(target: Target, config: &str, seed: u64, tested: &[Tested<M>]) -> Score {
         let mut score = Score {
             target: target.name().into(),
             config: config.into(),
@@ -115,7 +115,7 @@ impl Scores {
         self.0.retain(|old| !is_new(old));
         self.0.extend_from_slice(scores);
         let place = |score: &Score| Target::ALL.iter().position(|t| t.name() == score.target);
-        self.0.sort_by_key(place);
+        self.0.sort_by_key(|score| (place(score), score.config.clone()));
     }
 
     /// All of them.
@@ -140,7 +140,7 @@ impl Scores {
         let survivors = self.0.iter().flat_map(|score| {
             score.survivors.iter().map(|survivor| format!("- {}: `{survivor}`\n", score.target))
         });
-        text + "\nThe survivors: place in the Verilog, cell, port and bit, change, and what ABC found.\n\n"
+        text + "\nThe survivors: place in the Verilog, cell, port and bit, change, and what ABC found; of a golden model place and change.\n\n"
             + &survivors.collect::<String>()
     }
 }
@@ -174,31 +174,29 @@ impl Reviews {
     }
 
     /// Why nothing shows a mutant, if it is here.
-    pub fn reason(&self, target: Target, config: &str, mutant: &Mutant) -> Option<String> {
+    pub fn reason(&self, target: Target, config: &str, mutant: &impl Display) -> Option<String> {
         let told = mutant.to_string();
         self.of(target, config).find(|r| r.mutant == told).map(|r| r.reason.clone())
     }
 
-    /// Entries of a target that no longer fit: of those mutants that the list is about, none is so
-    /// called, or it is killed. With another choice of mutants nothing is known.
-    pub fn stale<'a>(
+    /// Entries of a target that no longer fit: of its usual mutants none is so called, or it is killed.
+    pub fn stale<'a, M: Display>(
         &'a self,
         target: Target,
         config: &'a str,
-        (count, seed): (u32, u64),
-        tested: &[Tested],
+        tested: &[Tested<M>],
     ) -> Vec<&'a Review> {
         let fits = |review: &Review| {
             let mut same = tested.iter().filter(|t| t.mutant.to_string() == review.mutant);
             same.any(|t| matches!(t.fate, Fate::Reviewed(_)))
         };
-        let usual = (count, seed) == (COUNT, SEED);
-        self.of(target, config).filter(|review| usual && !fits(review)).collect()
+        self.of(target, config).filter(|review| !fits(review)).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Mutant, SEED};
     use super::*;
 
     fn tested(number: u32, fate: Fate) -> Tested {
@@ -231,8 +229,7 @@ mod tests {
         assert_eq!(reason(&one).as_deref(), Some("why"));
         assert_eq!(reviews.reason(Target::Display, "paper", &one), None);
         let all = [tested(1, Fate::Reviewed("why".into())), tested(2, Fate::Killed("x".into()))];
-        let stale = |seed| reviews.stale(Target::Display, "default", (COUNT, seed), &all);
-        assert_eq!(stale(SEED), [&reviews.0[1], &reviews.0[2]]);
-        assert!(stale(SEED + 1).is_empty());
+        let stale = reviews.stale(Target::Display, "default", &all);
+        assert_eq!(stale, [&reviews.0[1], &reviews.0[2]]);
     }
 }

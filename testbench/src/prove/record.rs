@@ -59,6 +59,15 @@ pub struct RecordError {
     pub why: String,
 }
 
+/// Whether the clocks of bounded proofs count where they are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clocks {
+    /// They do.
+    Count,
+    /// They do not.
+    Ignore,
+}
+
 /// Everything that was proved.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
@@ -101,8 +110,15 @@ impl Record {
         self.netlists.sort_by_key(|entry| (entry.target.clone(), entry.config.clone()));
     }
 
-    /// What is proved for less than the record says, a line each; also what is not in it.
-    pub fn faults(&self, proofs: &[Proved]) -> Vec<String> {
+    /// What is proved for less than the record says, a line each; also what is not in it. Where fewer clocks
+    /// were tried than for the record, their number does not count.
+    pub fn faults(&self, proofs: &[Proved], clocks: Clocks) -> Vec<String> {
+        let worth = |verdict: Verdict| match (verdict, clocks) {
+            (Verdict::Fails(_), _) => (0, 0),
+            (Verdict::Bounded(bound), Clocks::Count) => (1, bound),
+            (Verdict::Bounded(_), Clocks::Ignore) => (1, 0),
+            (Verdict::Induction(_), _) => (2, 0),
+        };
         let mut faults = Vec::new();
         for new in proofs {
             let what = format!("{} ({})", new.module, new.build);
@@ -113,8 +129,9 @@ impl Record {
             };
             for (label, verdict) in &old.proof.verdicts {
                 let now = new.proof.verdicts.get(label);
-                if now.map_or(0, |now| rank(*now)) < rank(*verdict) {
-                    faults.push(format!("{what}: {label}: {now:?}, recorded {verdict:?}"));
+                if now.map_or((0, 0), |now| worth(*now)) < worth(*verdict) {
+                    let now = now.map_or("not there".into(), |now| shown(*now));
+                    faults.push(format!("{what}: {label}: {now}, recorded {}", shown(*verdict)));
                 }
             }
         }
@@ -162,15 +179,6 @@ impl Record {
     }
 }
 
-/// Verdicts from the worst to the best, whatever their clocks.
-fn rank(verdict: Verdict) -> u32 {
-    match verdict {
-        Verdict::Fails(_) => 0,
-        Verdict::Bounded(_) => 1,
-        Verdict::Induction(_) => 2,
-    }
-}
-
 fn lines<T: Serialize>(entries: &[T]) -> String {
     let lines = entries.iter().map(|entry| serde_json::to_string(entry).unwrap_or_default());
     lines.collect::<Vec<_>>().join(",\n")
@@ -187,5 +195,32 @@ pub fn shown(verdict: Verdict) -> String {
         Verdict::Bounded(0) => "open".into(),
         Verdict::Bounded(clocks) => format!("{clocks} clocks"),
         Verdict::Induction(_) => "always".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn proved(verdict: Verdict) -> Proved {
+        let verdicts = BTreeMap::from([("p_stable".to_owned(), verdict)]);
+        let proof = Proof { verdicts, seconds: 1.0 };
+        Proved { module: "stage".into(), build: "default".into(), proof }
+    }
+
+    #[test]
+    fn what_is_proved_for_less_is_told() {
+        let record = Record { proofs: vec![proved(Verdict::Bounded(10))], netlists: Vec::new() };
+        let faults = |verdict, clocks| record.faults(&[proved(verdict)], clocks);
+        for good in [Verdict::Bounded(10), Verdict::Bounded(11), Verdict::Induction(1)] {
+            assert_eq!(faults(good, Clocks::Count), [""; 0]);
+        }
+        let fewer = "stage (default): p_stable: 9 clocks, recorded 10 clocks";
+        assert_eq!(faults(Verdict::Bounded(9), Clocks::Count), [fewer]);
+        assert_eq!(faults(Verdict::Bounded(4), Clocks::Ignore), [""; 0]);
+        assert_eq!(faults(Verdict::Fails(2), Clocks::Ignore).len(), 1);
+        let other = Proved { build: "paper".into(), ..proved(Verdict::Induction(1)) };
+        let unknown = format!("stage (paper): not in {FILE}");
+        assert_eq!(record.faults(&[other], Clocks::Ignore), [unknown]);
     }
 }
