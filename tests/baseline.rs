@@ -37,6 +37,8 @@ fn large_triangles_take_little_more_than_half_the_clocks() {
         for row in rows {
             let size: u32 = row.name.trim_end_matches(" px").parse().expect("pixels");
             assert!(row.clocks() <= if size < 64 { 1.0 } else { limit }, "{turned} {row:?}");
+            // What a pass cannot avoid, a row's overhang, and what is drawn for one eye after the other.
+            assert!(size < 64 || row.clocks() <= row.bound() + 0.035, "{turned} {row:?}");
             if [8, 64].contains(&size) {
                 let scene = triangles(size, *turned);
                 let now = measure(&pipelines, &row.name, &scene, Options::new(&CONFIG));

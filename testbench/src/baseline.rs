@@ -17,8 +17,11 @@ use thiserror::Error;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::pipeline::{Edges, PrimaryBeat, Setup};
+use wheatstone_golden::primary::{Primary, Sink};
 use wheatstone_golden::scene::vector::{add, cross, dot, scale, unit, Vec3};
 use wheatstone_golden::scene::{Colours, Material, Mesh, Rig, Scene, DEFAULT_SIZE};
+use wheatstone_golden::setup::{Eyes, Polygon};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
 use wheatstone_studies::published::PRIMARY;
@@ -48,12 +51,21 @@ pub struct Row {
     pub stereo: u64,
     /// Clocks of the monocular pipeline for the left and the right view.
     pub monocular: [u64; 2],
+    /// Pixels that polygons cover in the two views.
+    pub pixels: u64,
+    /// Of each polygon the pixels in the view in which it has more: one pass cannot visit fewer.
+    pub wider: u64,
 }
 
 impl Row {
     /// Clocks of one stereo pass in those of two monocular passes.
     pub fn clocks(&self) -> f64 {
         self.stereo as f64 / self.monocular.iter().sum::<u64>() as f64
+    }
+
+    /// What that would be if each polygon took its pixels in the view in which it has more.
+    pub fn bound(&self) -> f64 {
+        self.wider as f64 / self.pixels.max(1) as f64
     }
 }
 
@@ -142,8 +154,39 @@ impl Baseline {
             *clocks_of = clocks(&ran, Target::Mono, name)?;
         }
         let (polygons, derived) = (job.polygons.len() as u64, scene.drawn.derived);
-        Ok(Row { name: name.into(), polygons, derived, stereo, monocular: monocular_clocks })
+        let (pixels, wider) = covered(job);
+        let monocular = monocular_clocks;
+        Ok(Row { name: name.into(), polygons, derived, stereo, monocular, pixels, wider })
     }
+}
+
+/// Pixels that polygons cover in both views, and in the view in which each of them has more.
+fn covered(job: &Job) -> (u64, u64) {
+    let job = Target::Mono.job(job);
+    let mut primary = Primary::new(job.planner(false), job.textures, job.lookup);
+    let mut drawn = |polygon: &Polygon, eye: Eye| {
+        let before = primary.counts.beats();
+        if polygon.eyes == Eyes::Both || polygon.eyes == Eyes::One(eye) {
+            for triangle in polygon.fan() {
+                primary.draw(&Polygon { eyes: Eyes::One(eye), ..triangle }, &mut Nowhere);
+            }
+        }
+        primary.counts.beats() - before
+    };
+    let of = |polygon| Eye::BOTH.map(|eye| drawn(polygon, eye));
+    job.polygons
+        .iter()
+        .map(of)
+        .fold((0, 0), |(both, wider), [left, right]| (both + left + right, wider + left.max(right)))
+}
+
+/// Nobody looks at the beats.
+struct Nowhere;
+
+impl Sink for Nowhere {
+    fn polygon(&mut self, _id: u32) {}
+    fn records(&mut self, _setup: &Setup, _edges: &Edges) {}
+    fn beat(&mut self, _beat: &PrimaryBeat) {}
 }
 
 fn setting(library: &Library) -> Setting<'_> {
@@ -243,8 +286,8 @@ impl Rows {
     }
 }
 
-/// The tables of the stereo pipeline's page.
-pub fn tables(rows: &Rows, areas: &[(&str, Areas)]) -> String {
+/// The tables of the stereo pipeline's page; the rows are those of the configuration `of`.
+pub fn tables(rows: &Rows, areas: &[(&str, Areas)], of: &str) -> String {
     let mut text = String::from(
         "\n| gates, OSU 0.35 µm | `sam_primary` | `sam_mono` | `sam_hybrid` | `sam_stereo` \
          | secondary : primary | secondary : 100,000 | stereo : 2 primary | stereo : 2 mono |\n\
@@ -263,21 +306,22 @@ pub fn tables(rows: &Rows, areas: &[(&str, Areas)]) -> String {
             a.to_monos(),
         );
     }
-    let factor = areas.iter().find(|(config, _)| *config == "default").map(|(_, a)| a.to_monos());
+    let factor = areas.iter().find(|(config, _)| *config == of).map(|(_, a)| a.to_monos());
     let row = |text: &mut String, row: &Row| {
         let numbers = [row.polygons, row.derived, row.stereo, row.monocular.iter().sum()];
         let cells: String =
             numbers.iter().map(|n| format!(" {} |", thousands(*n as f64))).collect();
         // Two pipelines at once take twice the area and half the time.
         let product = factor.map_or("–".into(), |f| format!("{:.2}", 2.0 * f * row.clocks()));
-        let _ = writeln!(text, "| {} |{cells} {:.3} | {product} |", row.name, row.clocks());
+        let (ratio, bound) = (row.clocks(), row.bound());
+        let _ = writeln!(text, "| {} |{cells} {ratio:.3} | {bound:.3} | {product} |", row.name);
     };
     let sizes = rows.sizes.iter().map(|(turned, rows)| (format!("turned up to {turned}°"), rows));
     for (heading, rows) in sizes.chain([("scene".to_owned(), &rows.scenes)]) {
         let _ = write!(
             text,
-            "\n| {heading} | polygons | derived | clocks, stereo | clocks, two passes | ratio | area × clocks |\n\
-             | --- | --- | --- | --- | --- | --- | --- |\n",
+            "\n| {heading} | polygons | derived | clocks, stereo | clocks, two passes | ratio | bound | area × clocks |\n\
+             | --- | --- | --- | --- | --- | --- | --- | --- |\n",
         );
         rows.iter().for_each(|r| row(&mut text, r));
     }

@@ -150,7 +150,7 @@ fn baseline_tables(workspace: &Path) -> Result<String, RecordError> {
     for config in Config::NAMES {
         areas.extend(Areas::recorded(workspace, config)?.map(|a| (config, a)));
     }
-    Ok(baseline::tables(&Rows::read(workspace)?, &areas))
+    Ok(baseline::tables(&Rows::read(workspace)?, &areas, "default"))
 }
 
 /// Random triangles of each class in the table of costs, and the views they are drawn in.

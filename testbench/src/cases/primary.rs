@@ -101,7 +101,7 @@ fn mixed<B: Beat>(rng: &mut Rng, table: &Table, f: &Formats) -> B {
 }
 
 /// Corners of the number range: flat and vertical edges, rows of one pixel, both ends of the columns,
-/// polygons of one row and of as many as there can be.
+/// parts of as many rows as there can be.
 pub fn corners(target: Target, config: &Config) -> Case {
     let f = &Formats::new(config);
     let mut records = Vec::new();
@@ -169,7 +169,20 @@ pub fn corners(target: Target, config: &Config) -> Case {
             }
         }
     }
-    of(target, config, "flat and steep edges, both ends of the columns", 6, &records)
+    // Columns of pixels: every bit of the number of rows is 1 in one of them, and 0 in another.
+    let most = i64::from(f.max_size) - 1;
+    for rows in [most, most / 2 + 1, 0x555 & most, 0x2aa & most] {
+        let walk = Walk {
+            rows: Coordinate::new(rows, f),
+            x: PixelX::new(9, f),
+            left: PixelX::new(9, f),
+            right: PixelX::new(9, f),
+            y_step: DisplayStep::new(1, f),
+            ..Walk::default()
+        };
+        records.push((walk, Planes::default()));
+    }
+    of(target, config, "flat and steep edges, both ends of the columns, many rows", 6, &records)
 }
 
 /// Frame buffers that note what passes to and from them.

@@ -320,7 +320,7 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     // So that every bit of width and height is 0 in one and 1 in another.
     let largest = [[f.max_size, 12], [f.max_size - 1, 19]].into_iter();
     let largest = largest.flat_map(|[a, b]| [[a, b], [b, a]]);
-    let largest = largest.map(|size| large(target, config, size));
+    let largest = largest.flat_map(|size| PLACES.map(|place| large(target, config, size, place)));
     let every = (target == Target::Hybrid).then(|| every_kind(config));
     let rest = [crowded, turned, cleared].into_iter().chain(raised).chain(largest).chain(every);
     [spoiled].into_iter().chain(stray).chain(rest).collect()
@@ -329,17 +329,30 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
 /// Place of `error_clear` among the static inputs of a system.
 const ERROR_CLEAR: usize = 3;
 
-/// Small polygons all over a view that is as wide or as high as it can be.
-fn large(target: Target, config: &Config, size: [u32; 2]) -> Case {
+/// Arrangements in which a view's columns and rows run either way, along either side of the display.
+const PLACES: [(&str, Arrangement); 3] = [
+    ("", Arrangement::Normal),
+    (", flipped", Arrangement::Flipped),
+    (", rotated", Arrangement::Rotated),
+];
+
+/// Small polygons all over a view that is as wide or as high as it can be; derived, though that saves nothing.
+fn large(
+    target: Target,
+    config: &Config,
+    size: [u32; 2],
+    (place, arrangement): (&str, Arrangement),
+) -> Case {
     let f = Formats::new(config);
     let mut triangles = Triangles::new(8, f, size[0], size[1]);
     let polygons: Vec<Polygon> =
         (0..200).map(|id| Polygon { id, ..triangles.triangle(Class::Px2) }).collect();
-    let job = job(config, Options::new(config), size, &polygons);
+    let options = Options { arrangement, cost_rule: false, ..Options::new(config) };
+    let job = job(config, options, size, &polygons);
     let minimal = target == Target::Minimal;
     let mut tape = Tape::new(&job, minimal, false);
     job.run(minimal, tape.sink());
-    whole(target, &job, &format!("a view of {} × {}", size[0], size[1]), tape)
+    whole(target, &job, &format!("a view of {} × {}{place}", size[0], size[1]), tape)
 }
 
 /// Polygons of every mode and, where a secondary is derived, every class of the mapping ratio with every

@@ -12,11 +12,14 @@ pub(super) struct BaselineArgs {
     /// Size of each view in pixels [default: 640x480]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<[u32; 2]>,
+    /// Named set of build parameters
+    #[arg(long, value_name = "default|paper|full", default_value = "default")]
+    config: String,
     /// Write the rows and areas as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write the rows into the record; `wheatstone generate` then renews the tables
-    #[arg(long, conflicts_with_all = ["scene", "size"])]
+    #[arg(long, conflicts_with_all = ["scene", "size", "config"])]
     record: bool,
     /// Folder of the Verilog [default: rtl of this workspace]
     #[arg(long, value_name = "DIR")]
@@ -24,7 +27,7 @@ pub(super) struct BaselineArgs {
 }
 
 pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
-    let settings = Settings::new::<&str>("default", &[])?;
+    let settings = Settings::new::<&str>(&args.config, &[])?;
     let builder = builder(is_terminal())?;
     let pipelines = Baseline::new(&builder, &rtl_folder(&args.rtl)?, &settings.config)?;
     let spinner = Spinner::new();
@@ -51,15 +54,16 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
     drop(spinner);
     let root = if args.record { Some(super::root()?) } else { workspace() };
     let areas = match &root {
-        Some(root) => Areas::recorded(root, "default")?,
+        Some(root) => Areas::recorded(root, &args.config)?,
         None => None,
     };
-    let named: Vec<(&str, Areas)> = areas.iter().map(|areas| ("default", *areas)).collect();
-    say!("{}", tables(&rows, &named).trim_start());
+    let named: Vec<(&str, Areas)> =
+        areas.iter().map(|areas| (args.config.as_str(), *areas)).collect();
+    say!("{}", tables(&rows, &named, &args.config).trim_start());
     if let Some(file) = &args.json {
         let content = serde_json::json!({
             "format": "wheatstone-baseline/1",
-            "config": "default",
+            "config": args.config,
             "gates": areas,
             "sizes": rows.sizes,
             "scenes": rows.scenes,
