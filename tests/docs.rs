@@ -41,6 +41,18 @@ fn generated_parts_are_current() {
 }
 
 #[test]
+fn every_page_is_in_the_list_of_pages() {
+    let list = read("docs/README.md");
+    for page in pages() {
+        let Some(name) = page.strip_prefix("docs/") else { continue };
+        assert!(
+            name == "README.md" || list.contains(&format!("]({name})")),
+            "docs/README.md lacks {name}"
+        );
+    }
+}
+
+#[test]
 fn every_test_file_is_run() {
     let declared =
         [read("tests/Cargo.toml"), read("golden/Cargo.toml").replace("../tests/", "")].concat();

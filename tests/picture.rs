@@ -81,7 +81,6 @@ fn a_failed_write_leaves_nothing_and_names_the_file() {
     fs::create_dir(&taken).expect("a folder");
     let picture = noise(4, 4, 1);
     for path in [
-        folder.path().join("missing/picture.png"),
         file.join("picture.png"),
         taken,
         Path::new("/proc/picture.png").to_owned(),
@@ -91,6 +90,14 @@ fn a_failed_write_leaves_nothing_and_names_the_file() {
         assert!(error.starts_with(&format!("{}: cannot be written: ", path.display())), "{error}");
     }
     assert_eq!(names(folder.path()), ["file", "taken.png"]);
+    assert_eq!(fs::read(&file).expect("a file"), b"content");
+}
+
+#[test]
+fn a_missing_folder_is_made() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("reports/today/report.json");
+    write_file(&file, b"content").expect("written");
     assert_eq!(fs::read(&file).expect("a file"), b"content");
 }
 

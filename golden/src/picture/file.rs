@@ -14,7 +14,8 @@ pub struct WriteError {
     pub source: std::io::Error,
 }
 
-/// Writes a file: under a temporary name beside it, then renamed.
+/// Writes a file: under a temporary name beside it, then renamed. Folders that are missing are made, so that
+/// nobody loses what took long for want of one.
 ///
 /// If anything fails, or the program is killed, a file of that name is as it was before, or not
 /// there. Only a kill can leave the temporary file, `.NAME.XXXXXX.part`.
@@ -27,6 +28,7 @@ pub fn write_file(file: &Path, content: &[u8]) -> Result<(), WriteError> {
         let Some(name) = file.file_name() else {
             return Err(std::io::Error::other("not the name of a file"));
         };
+        std::fs::create_dir_all(folder)?;
         let mut builder = tempfile::Builder::new();
         let prefix = format!(".{}.", name.to_string_lossy());
         builder.prefix(&prefix).suffix(".part");
