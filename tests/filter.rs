@@ -74,6 +74,16 @@ fn three_terms_have_the_expected_errors() {
     assert!((mean(&errors) - 0.012_745_8).abs() < 5e-8);
     let sorted = |&(p, q, r): &(u32, u32, u32)| p <= q && q <= r && r <= THREE_TERM_SHIFT;
     assert!(THREE_TERM.iter().all(sorted));
+    // Of triples with the same sum the one that needs the fewest bits is in the table.
+    let sum = |(p, q, r): (u32, u32, u32)| {
+        [p, q, r].map(|e| 1 << (THREE_TERM_SHIFT - e)).iter().sum::<u32>()
+    };
+    for &entry in &THREE_TERM[1..] {
+        let fewer = 1..entry.2;
+        let pairs = fewer.clone().flat_map(|q| (1..=q).map(move |p| (p, q)));
+        let mut triples = pairs.flat_map(|(p, q)| (q..entry.2).map(move |r| (p, q, r)));
+        assert!(triples.all(|triple| sum(triple) != sum(entry)), "{entry:?}");
+    }
 }
 
 #[test]

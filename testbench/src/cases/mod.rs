@@ -136,7 +136,10 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
             [false, true].map(|single| combinational::redirect_corners(config, single)).to_vec()
         }
         Target::Traversal | Target::Primary => vec![primary::corners(target, config)],
-        Target::Mono => Eye::BOTH.map(|eye| primary::mono_crowd(config, eye)).to_vec(),
+        Target::Mono => {
+            let crowds = Eye::BOTH.map(|eye| primary::mono_crowd(config, eye));
+            crowds.into_iter().chain(primary::mono_large(config)).collect()
+        }
         Target::Minimal | Target::Hybrid | Target::Stereo => systems::directed(target, config),
     }
 }

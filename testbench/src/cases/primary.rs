@@ -243,7 +243,18 @@ pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
     let polygons = systems::random_polygons(rng.u64(..), f, size, count);
     let eye = Eye::BOTH[rng.usize(..2)];
     let polygons = for_one_eye(polygons, eye);
-    monocular(&systems::job(config, Options::new(config), size, &polygons), eye, "random polygons")
+    let options = systems::options(rng, config);
+    monocular(&systems::job(config, options, size, &polygons), eye, "random polygons")
+}
+
+/// Large views, each for one eye.
+pub fn mono_large(config: &Config) -> Vec<Case> {
+    let draw = |(large, eye): (systems::Large, Eye)| {
+        let systems::Large { name, size, options, polygons } = large;
+        let polygons = for_one_eye(polygons, eye);
+        monocular(&systems::job(config, options, size, &polygons), eye, &name)
+    };
+    systems::largest(config).into_iter().zip(Eye::BOTH.into_iter().cycle()).map(draw).collect()
 }
 
 /// Small polygons on top of each other: the next one reads what is still in the queue.

@@ -119,7 +119,7 @@ fn whole(target: Target, job: &Job, name: &str, mut tape: Tape) -> Case {
 }
 
 /// Options drawn at random among those that the configuration can build.
-fn options(rng: &mut Rng, config: &Config) -> Options {
+pub fn options(rng: &mut Rng, config: &Config) -> Options {
     let pick = |rng: &mut Rng, n: usize| rng.usize(..n);
     Options {
         cost_rule: rng.u32(..4) == 0,
@@ -317,10 +317,13 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
 
     // Inside the stereo pipeline there are no beats but the primary's own.
     let stray = Some(stray).filter(|_| !stereo);
-    // So that every bit of width and height is 0 in one and 1 in another.
-    let largest = [[f.max_size, 12], [f.max_size - 1, 19]].into_iter();
-    let largest = largest.flat_map(|[a, b]| [[a, b], [b, a]]);
-    let largest = largest.flat_map(|size| PLACES.map(|place| large(target, config, size, place)));
+    let largest = largest(config).into_iter().map(|large| {
+        let Large { name, size, options, polygons } = large;
+        let job = job(config, options, size, &polygons);
+        let mut tape = Tape::new(&job, minimal, false);
+        job.run(minimal, tape.sink());
+        whole(target, &job, &name, tape)
+    });
     let every = (target == Target::Hybrid).then(|| every_kind(config));
     let rest = [crowded, turned, cleared].into_iter().chain(raised).chain(largest).chain(every);
     [spoiled].into_iter().chain(stray).chain(rest).collect()
@@ -336,23 +339,33 @@ const PLACES: [(&str, Arrangement); 3] = [
     (", rotated", Arrangement::Rotated),
 ];
 
-/// Small polygons all over a view that is as wide or as high as it can be; derived, though that saves nothing.
-fn large(
-    target: Target,
-    config: &Config,
-    size: [u32; 2],
-    (place, arrangement): (&str, Arrangement),
-) -> Case {
+/// A view that is as wide or as high as it can be, with small polygons all over it.
+pub struct Large {
+    /// What it is.
+    pub name: String,
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Polygons are derived, though that saves nothing.
+    pub options: Options,
+    /// The polygons.
+    pub polygons: Vec<Polygon>,
+}
+
+/// Large views, so that every bit of width and height is 0 in one and 1 in another.
+pub fn largest(config: &Config) -> Vec<Large> {
     let f = Formats::new(config);
-    let mut triangles = Triangles::new(8, f, size[0], size[1]);
-    let polygons: Vec<Polygon> =
-        (0..200).map(|id| Polygon { id, ..triangles.triangle(Class::Px2) }).collect();
-    let options = Options { arrangement, cost_rule: false, ..Options::new(config) };
-    let job = job(config, options, size, &polygons);
-    let minimal = target == Target::Minimal;
-    let mut tape = Tape::new(&job, minimal, false);
-    job.run(minimal, tape.sink());
-    whole(target, &job, &format!("a view of {} × {}{place}", size[0], size[1]), tape)
+    let sizes = [[f.max_size, 12], [f.max_size - 1, 19]].into_iter();
+    let sizes = sizes.flat_map(|[a, b]| [[a, b], [b, a]]);
+    let of = |(size, (place, arrangement)): ([u32; 2], (&str, Arrangement))| {
+        let mut triangles = Triangles::new(8, f, size[0], size[1]);
+        Large {
+            name: format!("a view of {} × {}{place}", size[0], size[1]),
+            size,
+            options: Options { arrangement, cost_rule: false, ..Options::new(config) },
+            polygons: (0..200).map(|id| Polygon { id, ..triangles.triangle(Class::Px2) }).collect(),
+        }
+    };
+    sizes.flat_map(|size| PLACES.map(|place| (size, place))).map(of).collect()
 }
 
 /// Polygons of every mode and, where a secondary is derived, every class of the mapping ratio with every
