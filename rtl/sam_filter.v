@@ -112,7 +112,9 @@ module sam_filter #(
 `ifdef FORMAL
 `include "sam_formal.vh"
     `SAM_BEGIN
-    // The pixels that are counted, told from the ports.
+    // The pixels that are counted, told from the ports: from the first pixel that was opened on, as registers
+    // begin with anything.
+    reg  f_known = 1'b0;
     wire f_take = beat_valid_i & beat_ready_o;
     wire f_give = pixel_valid_o & pixel_ready_i;
     `SAM_HELD(f_held, f_take & beat_end_i, f_give)
@@ -128,7 +130,10 @@ module sam_filter #(
     wire [69:0] f_colour = FILTER_TERMS == 0 ? {factor, f_sums} : pixel_rgba_o;
     wire [51:0] f_sums;
 
-    always @(posedge clk_i) if (f_take) f_count <= f_before + f_adds;
+    always @(posedge clk_i) begin
+        f_known <= f_known | (f_take & beat_first_i);
+        if (f_take) f_count <= f_before + f_adds;
+    end
 
     genvar f_i;
     generate
@@ -147,8 +152,6 @@ module sam_filter #(
             assign f_reciprocal = 1'b1;
         end
     endgenerate
-    // Before anything was taken the registers hold what a filter may hold.
-    always @* assume (f_begun | (f_count <= `SAM_FILTER_LIMIT & count_q == f_count & &f_good & f_reciprocal));
 
     always @(posedge clk_i) if (f_begun) begin
         // A pixel that waits is offered again, unchanged.
@@ -157,18 +160,17 @@ module sam_filter #(
         p_nothing_lost: assert (~(f_take & f_held & ~f_give));
         // A pixel is offered exactly when one has ended.
         p_nothing_twice: assert (pixel_valid_o == f_held);
-        // The count stays in 0 to 29.
-        p_range: assert (pixel_count_o <= `SAM_FILTER_LIMIT);
+        // From the first opened pixel on the count stays in 0 to 29.
+        p_range: assert (~f_known | pixel_count_o <= `SAM_FILTER_LIMIT);
         // It is that of the included beats, of which 29 count.
-        p_count: assert (pixel_count_o == f_count);
+        p_count: assert (~f_known | pixel_count_o == f_count);
         // Without any the pixel is black and transparent.
-        p_empty: assert (~f_held | f_count != 0 | pixel_rgba_o == 0);
+        p_empty: assert (~f_known | ~f_held | f_count != 0 | pixel_rgba_o == 0);
         // The sums of all channels are divided, with the reciprocal of the count.
-        p_sums: assert (&f_good & f_reciprocal);
+        p_sums: assert (~f_known | (&f_good & f_reciprocal));
         // Lemma: the sum of nothing is nothing.
-        lemma: assert (f_count != 0 | {f_sum[0], f_sum[1], f_sum[2], f_sum[3]} == 0);
+        lemma: assert (~f_known | f_count != 0 | {f_sum[0], f_sum[1], f_sum[2], f_sum[3]} == 0);
     end
-    always @* assume (f_begun | f_count != 0 | {f_sum[0], f_sum[1], f_sum[2], f_sum[3]} == 0);
 `endif
 endmodule
 

@@ -554,14 +554,10 @@ module sam_slot_queue #(
     always @(posedge clk_i) if (f_begun & ~rst_i) begin
         // A request that waits is offered again, unchanged.
         p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
-        // No more reads are under way than there are slots.
-        p_reads: assert (f_reads <= SLOTS);
         // What leaves of an eye has come before.
         p_nothing_made: assert (f_left + f_leaves_first + f_leaves_other <= f_all);
-        // No more than the slots, the stages and buffers round them and the slot in front are under
-        // way. (This and the next one: until the depth test first drops a pixel.)
-        p_nothing_lost: assert (f_dropped | f_all - f_left <= SLOTS + (SHORT ? 4 : 8));
-        // The pixels of an eye leave in the order in which they came, as they came.
+        // The pixels of an eye leave in the order in which they came, as they came; one that is lost shows as
+        // the next one leaves in its place. (Until the depth test first drops a pixel.)
         p_order: assert (f_dropped | ~(f_leaves_first | f_leaves_other) | f_left != f_number
                          | (f_leaves_first ? f_left_first : f_left_other) == {f_pixel[F-1:1], f_leaves_first ? 1'b0 : out_blended_o});
         // Secondaries are read in the order in which they came, each where it is,
@@ -577,6 +573,18 @@ module sam_slot_queue #(
         // The first primary passes at once, or, by the buffers of a long queue, in two clocks.
         p_passes: assert (~(SHORT ? f_first : f_first_q[1]) | (out_valid_o & out_primary_o));
     end
+    // What is under way at most: told of the smallest queue alone, as it takes too many clocks to fill others.
+    generate
+        if (SLOTS == 2) begin : g_f_filled
+            always @(posedge clk_i) if (f_begun & ~rst_i) begin
+                // Of two slots: no more reads are under way than there are slots.
+                p_reads: assert (f_reads <= SLOTS);
+                // Of two slots: no more than the slots, the stages round them and the slot in front are under way.
+                // (Until the depth test first drops a pixel.)
+                p_nothing_lost: assert (f_dropped | f_all - f_left <= SLOTS + 4);
+            end
+        end
+    endgenerate
 `endif
 endmodule
 

@@ -190,6 +190,9 @@ module sam_traversal #(
         p_load: assert (~f_inside | (visit_op_o == `SAM_OP_LOAD) == f_fresh);
         // A part has as many rows as its record says: it ends in the last one, and with no other.
         p_rows: assert (~f_ends | rst_i | f_rows_now == 0);
+        // A further row begins only while the record has rows left: with the end of every row at its right end at
+        // the latest, whatever the record says, every part ends.
+        p_ends: assert (~f_inside | f_fresh | visit_op_o != `SAM_OP_ROW | f_rows != 0);
         // Only the last pixel of a part is last, where the record says so.
         p_last: assert (~f_give | visit_last_o == (f_last & f_ends));
         // The first pixel is where the record says.

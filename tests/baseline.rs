@@ -7,7 +7,7 @@ use wheatstone_golden::scene::{self, builtin, Scene};
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::texture::Lookup;
-use wheatstone_testbench::baseline::{triangles, Baseline, Row, Rows};
+use wheatstone_testbench::baseline::{triangles, Baseline, Recorded, Row, Rows};
 use wheatstone_tests::*;
 
 const CONFIG: Config = Config::DEFAULT;
@@ -25,7 +25,7 @@ fn measure(pipelines: &Baseline, name: &str, scene: &Scene, options: Options) ->
 }
 
 fn recorded() -> Rows {
-    Rows::read(workspace()).unwrap_or_else(|error| panic!("{error}"))
+    Recorded::read(workspace()).unwrap_or_else(|error| panic!("{error}")).of("default")
 }
 
 #[test]

@@ -50,6 +50,17 @@ fn gates_of_the_paper_configuration_are_as_recorded_and_as_few_as_published() {
     }
 }
 
+/// What is measured by place and route is held to the record by `wheatstone synth --check`; the record to
+/// this.
+#[test]
+fn the_recorded_clocks_are_those_of_a_board() {
+    let fmax = |target, tech| record().figure(target, "default", tech, Figure::Fmax);
+    let [hybrid, minimal] = [(Target::Hybrid, Tech::Ecp5), (Target::Minimal, Tech::Ice40)]
+        .map(|(t, tech)| fmax(t, tech));
+    assert!(hybrid.is_some_and(|mhz| mhz >= 125.0), "hybrid on ECP5: {hybrid:?}");
+    assert!(minimal.is_some_and(|mhz| mhz >= 80.0), "minimal on iCE40: {minimal:?}");
+}
+
 #[test]
 fn a_unit_that_grows_is_noticed() {
     let copy = copy_of_rtl();

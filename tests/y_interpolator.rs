@@ -32,6 +32,7 @@ fn run(planner: &Planner, walk: &walk::Walk) -> Vec<YPixel> {
         let complete = model.step(&beat).follow(&mut waiting);
         pixels.extend(complete.into_iter().flatten().map(|state| state.pixel));
     }
+    assert_eq!(pixels.len(), walk.beats.len(), "the last beat completes its own pixel");
     pixels
 }
 
@@ -150,4 +151,22 @@ fn a_tilted_y_follows_the_map_within_the_error_bound() {
         },
     );
     assert!(moved.iter().all(|&count| count > 100), "movements -1, 0, 1: {moved:?}");
+}
+
+#[test]
+fn a_row_moves_by_the_carry_of_the_fractions() {
+    let f = Formats::new(&Config::FULL);
+    let one = 1 << FRACTION_BITS;
+    for view in [0, 1, one / 2, one - 2, one - 1, 5 * one + 3] {
+        for row in [0, 1, one / 2 - 1, one / 2, one - 2, one - 1, -1, -one, -one - 1, 3 - one] {
+            let mut model = YInterpolator::new(f, true, 150);
+            let [view, row] = [view, row].map(|raw| SecondaryX::new(raw, &f));
+            let load = YBeat { op: Op::Load, save: true, view, row, ..YBeat::default() };
+            model.step(&load);
+            let moved = model.step(&YBeat { op: Op::Row, ..load }).pixel.r#move.raw();
+            let whole = |raw: i64| raw.div_euclid(one);
+            let carried = whole(view.raw() + row.raw()) - whole(view.raw()) - whole(row.raw());
+            assert_eq!(moved, carried, "{view:?} {row:?}");
+        }
+    }
 }

@@ -11,6 +11,7 @@ use crate::synth::{Figure, Tech};
 use crate::{Builder, Library, Spec, Stalls};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 use thiserror::Error;
@@ -264,7 +265,7 @@ fn direction(rng: &mut Rng) -> Vec3 {
 /// The file of the committed rows in the workspace.
 pub const FILE: &str = "synth/baseline.json";
 
-/// The committed rows, of the default configuration.
+/// The rows of a configuration.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rows {
     /// By the size of triangles, with how far they are turned at most.
@@ -274,9 +275,40 @@ pub struct Rows {
 }
 
 impl Rows {
+    /// All rows, each with how far triangles are turned, if it is of triangles.
+    pub fn all(&self) -> impl Iterator<Item = (Option<u32>, &Row)> {
+        let sizes =
+            self.sizes.iter().flat_map(|(turned, rows)| rows.iter().map(|r| (Some(*turned), r)));
+        sizes.chain(self.scenes.iter().map(|row| (None, row)))
+    }
+
+    /// What differs from recorded rows, and what takes longer than two passes, a line each.
+    pub fn faults(&self, recorded: &Rows) -> Vec<String> {
+        let known: Vec<(Option<u32>, &Row)> = recorded.all().collect();
+        let tell = |(turned, row): (Option<u32>, &Row)| {
+            let name =
+                turned.map_or(row.name.clone(), |t| format!("{}, turned up to {t}°", row.name));
+            let slow = (row.clocks() > 1.0).then(|| format!("{name}: slower than two passes"));
+            let differs = !known.contains(&(turned, row));
+            slow.or(differs.then(|| format!("{name}: ratio {:.3}, not as recorded", row.clocks())))
+        };
+        self.all().filter_map(tell).collect()
+    }
+}
+
+/// The committed rows, by configuration.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Recorded(pub BTreeMap<String, Rows>);
+
+impl Recorded {
     /// The rows of a workspace.
-    pub fn read(workspace: &Path) -> Result<Rows, RecordError> {
+    pub fn read(workspace: &Path) -> Result<Recorded, RecordError> {
         read_record(workspace, FILE, "wheatstone baseline --record")
+    }
+
+    /// The rows of a configuration, none if it has none.
+    pub fn of(&self, config: &str) -> Rows {
+        self.0.get(config).cloned().unwrap_or_default()
     }
 
     /// Writes them.
@@ -286,8 +318,8 @@ impl Rows {
     }
 }
 
-/// The tables of the stereo pipeline's page; the rows are those of the configuration `of`.
-pub fn tables(rows: &Rows, areas: &[(&str, Areas)], of: &str) -> String {
+/// The areas of each configuration, in a table.
+pub fn area_table(areas: &[(&str, Areas)]) -> String {
     let mut text = String::from(
         "\n| gates, OSU 0.35 µm | `sam_primary` | `sam_mono` | `sam_hybrid` | `sam_stereo` \
          | secondary : primary | secondary : 100,000 | stereo : 2 primary | stereo : 2 mono |\n\
@@ -306,21 +338,27 @@ pub fn tables(rows: &Rows, areas: &[(&str, Areas)], of: &str) -> String {
             a.to_monos(),
         );
     }
-    let factor = areas.iter().find(|(config, _)| *config == of).map(|(_, a)| a.to_monos());
+    text
+}
+
+/// The rows of a configuration with these areas, in tables.
+pub fn row_tables(rows: &Rows, config: &str, areas: Option<&Areas>) -> String {
+    let mut text = String::new();
     let row = |text: &mut String, row: &Row| {
         let numbers = [row.polygons, row.derived, row.stereo, row.monocular.iter().sum()];
         let cells: String =
             numbers.iter().map(|n| format!(" {} |", thousands(*n as f64))).collect();
         // Two pipelines at once take twice the area and half the time.
-        let product = factor.map_or("–".into(), |f| format!("{:.2}", 2.0 * f * row.clocks()));
+        let product = |a: &Areas| format!("{:.2}", 2.0 * a.to_monos() * row.clocks());
         let (ratio, bound) = (row.clocks(), row.bound());
+        let product = areas.map_or("–".into(), product);
         let _ = writeln!(text, "| {} |{cells} {ratio:.3} | {bound:.3} | {product} |", row.name);
     };
     let sizes = rows.sizes.iter().map(|(turned, rows)| (format!("turned up to {turned}°"), rows));
     for (heading, rows) in sizes.chain([("scene".to_owned(), &rows.scenes)]) {
         let _ = write!(
             text,
-            "\n| {heading} | polygons | derived | clocks, stereo | clocks, two passes | ratio | bound | area × clocks |\n\
+            "\n| `{config}`, {heading} | polygons | derived | clocks, stereo | clocks, two passes | ratio | bound | area × clocks |\n\
              | --- | --- | --- | --- | --- | --- | --- | --- |\n",
         );
         rows.iter().for_each(|r| row(&mut text, r));

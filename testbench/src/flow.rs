@@ -70,12 +70,14 @@ pub(crate) fn set_parameters(module: &str, parameters: &[(impl AsRef<str>, u32)]
 }
 
 /// What `find` finds of a module, kept in the folder `cache` under a hash of the sources and of `inputs`:
-/// everything else that the result depends on.
+/// everything else that the result depends on. A result that `keep` refuses is not kept: that of a tool which
+/// was stopped depends on how busy the machine was.
 pub(crate) fn cached<T: Serialize + DeserializeOwned>(
     cache: &Path,
     module: &str,
     sources: &Sources,
     inputs: &[&[u8]],
+    keep: impl FnOnce(&T) -> bool,
     find: impl FnOnce(&Folder) -> Result<T, FlowError>,
 ) -> Result<T, FlowError> {
     let mut hash = blake3::Hasher::new();
@@ -89,8 +91,10 @@ pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         return Ok(found);
     }
     let found = find(&Folder::of(cache, module, sources)?)?;
-    let text = serde_json::to_vec(&found).unwrap_or_default();
-    write_file(&file, &text)?;
+    if keep(&found) {
+        let text = serde_json::to_vec(&found).unwrap_or_default();
+        write_file(&file, &text)?;
+    }
     Ok(found)
 }
 

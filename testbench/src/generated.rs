@@ -1,7 +1,7 @@
 //! Files of the workspace that are generated, whole or between marks: the header of the Verilog, and
 //! tables in the pages of `docs/`.
 
-use crate::baseline::{self, Areas, Rows};
+use crate::baseline::{area_table, row_tables, Areas, Recorded};
 use crate::cli;
 use crate::mutation::record::Scores;
 use crate::prove::record;
@@ -150,7 +150,11 @@ fn baseline_tables(workspace: &Path) -> Result<String, RecordError> {
     for config in Config::NAMES {
         areas.extend(Areas::recorded(workspace, config)?.map(|a| (config, a)));
     }
-    Ok(baseline::tables(&Rows::read(workspace)?, &areas, "default"))
+    let recorded = Recorded::read(workspace)?;
+    let rows = areas.iter().filter_map(|(config, areas)| {
+        Some(row_tables(recorded.0.get(*config)?, config, Some(areas)))
+    });
+    Ok(area_table(&areas) + &rows.collect::<String>())
 }
 
 /// Random triangles of each class in the table of costs, and the views they are drawn in.

@@ -105,7 +105,7 @@ pub static GXX: Tool = Tool {
 /// Compiles Verilog for [`VVP`].
 pub static ICARUS: Tool = Tool {
     program: "iverilog",
-    purpose: "replay of vectors, cross-check",
+    purpose: "replay of vectors and cross-check",
     optional: true,
     oldest: Some(Version { major: 11, minor: 0 }),
     package: "iverilog",
@@ -114,7 +114,7 @@ pub static ICARUS: Tool = Tool {
 /// Runs what [`ICARUS`] compiled.
 pub static VVP: Tool = Tool {
     program: "vvp",
-    purpose: "replay of vectors, cross-check",
+    purpose: "replay of vectors and cross-check",
     optional: true,
     oldest: Some(Version { major: 11, minor: 0 }),
     package: "iverilog",
@@ -123,7 +123,7 @@ pub static VVP: Tool = Tool {
 /// Synthesises for gate counts and iCE40.
 pub static YOSYS: Tool = Tool {
     program: "yosys",
-    purpose: "synthesis",
+    purpose: "synthesis, proofs and mutants",
     optional: true,
     oldest: None,
     package: "yosys",
@@ -253,11 +253,11 @@ pub struct Found {
 #[derive(Debug, Error, PartialEq, Eq)]
 pub enum ToolError {
     /// It was not found.
-    #[error("{} is not installed, {} needs it; install it with: {}", .0.program, .0.purpose, .0.install_command())]
+    #[error("{} is not installed; it is needed for {}; install it with: {}", .0.program, .0.purpose, .0.install_command())]
     Missing(&'static Tool),
     /// It is older than the oldest version that works.
     #[error(
-        "{} {} ({}) is too old, {} needs {} or newer; install it with: {} (an older one may stand first in PATH)",
+        "{} {} ({}) is too old; for {} it must be {} or newer; install it with: {} (an older one may stand first in PATH)",
         .tool.program, .tool.spell(*.found), .program.display(), .tool.purpose,
         .tool.spell(.tool.oldest.unwrap_or(*.found)), .tool.install_command()
     )]

@@ -82,7 +82,7 @@ impl Record {
     /// Coverage of the Verilog, file by file.
     pub fn coverage_table(&self) -> String {
         let mut text = String::from(
-            "\n| file | lines | toggles | waived | covered |\n| --- | --- | --- | --- | --- |\n",
+            "\n| file | lines | toggles | waived | covered or waived |\n| --- | --- | --- | --- | --- |\n",
         );
         let total = FileCoverage::total(self.coverage.values());
         let link = |name: &String| format!("[{name}](../rtl/{name})");

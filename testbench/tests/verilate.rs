@@ -185,7 +185,7 @@ fn a_missing_verilator_is_one_message_with_the_command() {
     assert!(matches!(error, ToolError::Missing(_)));
     assert_eq!(
         error.to_string(),
-        "verilator is not installed, co-simulation needs it; \
+        "verilator is not installed; it is needed for co-simulation; \
          install it with: apt-get install verilator"
     );
     let error = BuildError::from(error).to_string();

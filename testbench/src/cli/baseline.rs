@@ -1,7 +1,9 @@
 //! `wheatstone baseline`.
 
 use super::*;
-use crate::baseline::{self, tables, Areas, Baseline, Row, Rows, SIZES, TURNED};
+use crate::baseline::{
+    self, area_table, row_tables, Areas, Baseline, Recorded, Row, Rows, SIZES, TURNED,
+};
 use wheatstone_golden::picture::write_file;
 
 #[derive(Debug, Args)]
@@ -19,8 +21,11 @@ pub(super) struct BaselineArgs {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write the rows into the record; `wheatstone generate` then renews the tables
-    #[arg(long, conflicts_with_all = ["scene", "size", "config"])]
+    #[arg(long, conflicts_with_all = ["scene", "size"])]
     record: bool,
+    /// Compare with the committed record: exit status 1 if a row differs or takes longer than two passes
+    #[arg(long, conflicts_with_all = ["record", "scene", "size"])]
+    check: bool,
     /// Folder of the Verilog [default: rtl of this workspace]
     #[arg(long, value_name = "DIR")]
     rtl: Option<PathBuf>,
@@ -52,14 +57,14 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
         rows.scenes.push(measure(name, &scene::open(name, args.size, None)?)?);
     }
     drop(spinner);
-    let root = if args.record { Some(super::root()?) } else { workspace() };
-    let areas = match &root {
+    let areas = match &workspace() {
         Some(root) => Areas::recorded(root, &args.config)?,
         None => None,
     };
-    let named: Vec<(&str, Areas)> =
-        areas.iter().map(|areas| (args.config.as_str(), *areas)).collect();
-    say!("{}", tables(&rows, &named, &args.config).trim_start());
+    if let Some(areas) = areas {
+        say!("{}", area_table(&[(&args.config, areas)]).trim_start());
+    }
+    say!("{}", row_tables(&rows, &args.config, areas.as_ref()).trim_start());
     if let Some(file) = &args.json {
         let content = serde_json::json!({
             "format": "wheatstone-baseline/1",
@@ -70,9 +75,34 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
         });
         write_file(file, format!("{content:#}\n").as_bytes())?;
     }
-    if let (true, Some(root)) = (args.record, &root) {
-        rows.write(root)?;
-        say!("{}: written; now run: wheatstone generate", baseline::FILE);
+    match (args.record, args.check) {
+        (true, _) => record(&super::root()?, &args.config, rows).map(|()| OK),
+        (_, true) => check(&super::root()?, &args.config, &rows),
+        _ => Ok(OK),
     }
-    Ok(OK)
+}
+
+/// Writes rows into the record of the workspace.
+fn record(root: &Path, config: &str, rows: Rows) -> Result<(), Failure> {
+    // The first one has nothing before it.
+    let mut recorded = match root.join(baseline::FILE).exists() {
+        true => Recorded::read(root)?,
+        false => Recorded::default(),
+    };
+    recorded.0.insert(config.to_owned(), rows);
+    recorded.write(root)?;
+    say!("{}: written; now run: wheatstone generate", baseline::FILE);
+    Ok(())
+}
+
+/// Compares rows with the record of the workspace.
+fn check(root: &Path, config: &str, rows: &Rows) -> Result<u8, Failure> {
+    let faults = rows.faults(&Recorded::read(root)?.of(config));
+    if faults.is_empty() {
+        say!("as recorded in {}", baseline::FILE);
+        return Ok(OK);
+    }
+    faults.iter().for_each(|fault| say!("{fault}"));
+    say!("if this is meant, update the record with --record in place of --check");
+    Ok(MISMATCH)
 }

@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::prove::record::{self, shown, Clocks, Compared, Proved, Record};
-use crate::prove::{name, properties, Bug, Effort, Prover, Verdict, BUGS};
+use crate::prove::{name, properties, Bug, Catch, Effort, Prover, Verdict, BUGS};
 use rayon::prelude::*;
+use std::time::Instant;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::picture::write_file;
 
@@ -27,7 +28,7 @@ pub(super) struct ProveArgs {
     json: Option<PathBuf>,
     /// Compare with the committed record: exit status 1 if something is proved for less than it says. On a
     /// busy machine provers, which have a minute each, may come less far
-    #[arg(long, conflicts_with_all = ["bugs", "netlist", "record"])]
+    #[arg(long, conflicts_with_all = ["bugs", "record"])]
     check: bool,
     /// Write what was proved into the record; `wheatstone generate` then renews docs/formal.md
     #[arg(long, conflicts_with = "bugs")]
@@ -82,7 +83,7 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
     builds.sort_by_key(|(build, effort)| {
         (std::cmp::Reverse(effort.bound), !build.label.contains("full"))
     });
-    let spinner = Spinner::new();
+    let (spinner, started) = (Spinner::new(), Instant::now());
     let proved: Result<Vec<Proved>, Failure> = builds
         .par_iter()
         .with_max_len(1)
@@ -96,6 +97,11 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
     let mut proved = proved?;
     proved.sort_by_key(|entry| entry.module.clone());
     print_proofs(prover, &proved)?;
+    let proving: f64 = proved.iter().map(|entry| entry.proof.seconds).sum();
+    say!(
+        "{:.0} s on the clock; proving took {proving:.0} s, some of it maybe earlier",
+        started.elapsed().as_secs_f64()
+    );
     write_json(args, "proofs", &proved)?;
     if args.record {
         update(&proved, &[])?;
@@ -154,7 +160,7 @@ fn bugs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, Fai
     let wanted: Vec<&Bug> =
         BUGS.iter().filter(|bug| modules.iter().any(|module| module == bug.module)).collect();
     let spinner = Spinner::new();
-    let steps: Result<Vec<Option<u32>>, Failure> = wanted
+    let catches: Result<Vec<Catch>, Failure> = wanted
         .par_iter()
         .with_max_len(1)
         .map(|bug| {
@@ -163,20 +169,25 @@ fn bugs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, Fai
         })
         .collect();
     drop(spinner);
-    let steps = steps?;
+    let catches = catches?;
     let mut report = Vec::new();
-    for (bug, step) in wanted.iter().zip(&steps) {
+    for (bug, caught) in wanted.iter().zip(&catches) {
         let Bug { module, property, build, find, replace } = bug;
-        if step.is_none() {
-            say!("not caught: {module} ({build}), {property}: {find} → {replace}");
+        let what = match caught {
+            Catch::At(_) => None,
+            Catch::Not => Some("not caught"),
+            Catch::Stopped => Some("the prover was stopped"),
+        };
+        if let Some(what) = what {
+            say!("{what}: {module} ({build}), {property}: {find} → {replace}");
         }
         report.push(serde_json::json!({
             "module": module, "property": property, "build": build, "find": find,
-            "replace": replace, "step": step,
+            "replace": replace, "caught": caught,
         }));
     }
     write_json(args, "bugs", &report)?;
-    let caught = steps.iter().flatten().count();
+    let caught = catches.iter().filter(|caught| matches!(caught, Catch::At(_))).count();
     say!("{caught} of {} bugs caught", wanted.len());
     Ok(if caught == wanted.len() { OK } else { MISMATCH })
 }
@@ -220,6 +231,12 @@ fn netlists(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8,
     write_json(args, "netlists", &compared)?;
     if args.record {
         update(&[], &compared)?;
+    }
+    if args.check {
+        let record = Record::read(&root()?).map_err(|error| Failure::Input(error.to_string()))?;
+        let lost = record.lost_netlists(&compared);
+        lost.iter().for_each(|lost| say!("{lost}"));
+        return Ok(if lost.is_empty() { OK } else { MISMATCH });
     }
     // One that does not close in time is open, not different.
     let differs = |entry: &Compared| entry.equivalence.points > 0 && !entry.equivalence.closes();

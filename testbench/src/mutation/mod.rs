@@ -105,7 +105,7 @@ pub enum Fate {
     Killed(String),
     /// Proved to behave as the target does.
     Equivalent,
-    /// In the list of those reviewed, for this reason.
+    /// Nothing was proved, but it is in the list of those reviewed, for this reason.
     Reviewed(String),
     /// No run failed, although a sequence of beats exists that shows it.
     Missed,
@@ -192,13 +192,14 @@ impl Mutated {
     ) -> Result<Vec<Tested>, MutationError> {
         let killed = self.kill(runs)?;
         let tested = self.mutants().par_iter().zip(killed).map(|(mutant, killed)| {
-            let fate = match (killed, reason(mutant)) {
-                (Some(case), _) => Fate::Killed(case),
-                (None, Some(reason)) => Fate::Reviewed(reason),
-                (None, None) => match self.compare(mutant)? {
-                    Verdict::Equal => Fate::Equivalent,
-                    Verdict::Different => Fate::Missed,
-                    Verdict::Open => Fate::Undecided,
+            let fate = match killed {
+                Some(case) => Fate::Killed(case),
+                // What is proved counts for more than what a person has found.
+                None => match (self.compare(mutant)?, reason(mutant)) {
+                    (Verdict::Equal, _) => Fate::Equivalent,
+                    (Verdict::Different, _) => Fate::Missed,
+                    (Verdict::Open, Some(reason)) => Fate::Reviewed(reason),
+                    (Verdict::Open, None) => Fate::Undecided,
                 },
             };
             Ok(Tested { mutant: mutant.clone(), fate })

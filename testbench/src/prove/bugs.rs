@@ -454,6 +454,7 @@ pub const BUGS: &[Bug] = &[
         "op_q   <= end_of_row ? `SAM_OP_LOAD",
     ),
     bug("traversal", "rows", "rows_q <= rows_q - {", "rows_q <= rows_q + {"),
+    bug("traversal", "ends", "(rows_q == {C{1'b0}})", "(rows_q == {C{1'b1}})"),
     bug("traversal", "last", "last_q & end_of_part", "last_q & end_of_row"),
     bug("traversal", "start", "x_q      <= walk_x_i", "x_q      <= walk_left_i"),
     bug("traversal", "step", "$signed(x_q) >= $signed(right_q)", "$signed(x_q) > $signed(right_q)"),
@@ -588,6 +589,20 @@ pub const BUGS: &[Bug] = &[
         "passes         = primary_here & ~held & ~room",
     ),
     bug_in("8 slots", "slot_queue", "order", "single_i | eyes_q[front_eye]", "single_i"),
+    bug_in(
+        "8 slots",
+        "slot_queue",
+        "nothing_made",
+        "secondary_gone_q <= ~front_ready & front_secondary & secondary_done",
+        "secondary_gone_q <= 1'b0",
+    ),
+    bug_in(
+        "8 slots",
+        "slot_queue",
+        "depth",
+        "first_kept[1 +: D] < response_depth_i",
+        "first_kept[1 +: D] <= response_depth_i",
+    ),
     bug_in(
         "8 slots",
         "slot_queue",

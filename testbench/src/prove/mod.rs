@@ -55,6 +55,29 @@ pub struct Proof {
     pub seconds: f64,
 }
 
+impl Proof {
+    /// Whether a prover was stopped before it had tried all the clocks of an effort.
+    fn was_stopped(&self, effort: Effort) -> bool {
+        let fewer = |(label, verdict): (&String, &Verdict)| match verdict {
+            Verdict::Bounded(clocks) => *clocks < effort.clocks(label),
+            Verdict::Fails(_) | Verdict::Induction(_) => false,
+        };
+        self.verdicts.iter().any(fewer)
+    }
+}
+
+/// Whether a property fails where a bug is planted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Catch {
+    /// It fails so many clocks after the first one.
+    At(u32),
+    /// It holds for as many clocks as it is tried.
+    Not,
+    /// The prover was stopped before it failed.
+    Stopped,
+}
+
 /// How far a proof goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
@@ -217,7 +240,8 @@ impl Prover {
         let programs = Programs::find()?;
         let commands = read_commands(&sources, build);
         let effort_text = format!("{effort:?} {LIMIT}");
-        self.cached(build, &sources, &programs, &[&commands, &effort_text], |folder| {
+        let keep = |proof: &Proof| !proof.was_stopped(effort);
+        self.cached(build, &sources, &programs, &[&commands, &effort_text], keep, |folder| {
             let started = Instant::now();
             let task =
                 Task { folder, programs: &programs, module: format!("sam_{}", build.module) };
@@ -227,24 +251,24 @@ impl Prover {
         })
     }
 
-    /// Whether a bug is caught by the property that is to catch it, that one alone: where it fails. Without
-    /// the bug it must not.
-    pub fn catches(&self, bug: &Bug) -> Result<Option<u32>, FlowError> {
+    /// Whether a bug is caught by the property that is to catch it, that one alone. Without the bug it must
+    /// not fail.
+    pub fn catches(&self, bug: &Bug) -> Result<Catch, FlowError> {
         let clean = self.sources(bug.module)?;
         let mut planted = clean.clone();
         bug.plant(&mut planted)?;
         let bound = Effort::of(bug.module).clocks(&format!("p_{}", bug.property));
-        let step = self.fails(bug, &planted, bound)?;
-        match step {
-            Some(step) if self.fails(bug, &clean, step + 1)?.is_some() => {
-                Err(bug.fault("the property fails without the bug"))
-            }
-            step => Ok(step),
+        let caught = self.fails(bug, &planted, bound)?;
+        let Catch::At(step) = caught else { return Ok(caught) };
+        match self.fails(bug, &clean, step + 1)? {
+            Catch::At(_) => Err(bug.fault("the property fails without the bug")),
+            Catch::Not => Ok(caught),
+            Catch::Stopped => Ok(Catch::Stopped),
         }
     }
 
     /// Where a bug's property fails, within so many clocks.
-    fn fails(&self, bug: &Bug, sources: &Sources, bound: u32) -> Result<Option<u32>, FlowError> {
+    fn fails(&self, bug: &Bug, sources: &Sources, bound: u32) -> Result<Catch, FlowError> {
         let builds = self.builds(bug.module)?;
         let is_it = |build: &&Build| build.label.split(", ").any(|label| label == bug.build);
         let Some(build) = builds.iter().find(is_it) else {
@@ -253,7 +277,8 @@ impl Prover {
         let programs = Programs::find()?;
         let commands = read_commands(sources, build);
         let what = format!("{} {bound}", bug.property);
-        self.cached(build, sources, &programs, &[&commands, &what], |folder| {
+        let keep = |caught: &Catch| *caught != Catch::Stopped;
+        self.cached(build, sources, &programs, &[&commands, &what], keep, |folder| {
             let task =
                 Task { folder, programs: &programs, module: format!("sam_{}", build.module) };
             task.read(&commands)?;
@@ -264,8 +289,9 @@ impl Prover {
                 return Err(bug.fault("there is no such property"));
             }
             match task.bounded(&others, bound)? {
-                Run::Failed { step, .. } => Ok(Some(step)),
-                _ => Ok(None),
+                Run::Failed { step, .. } => Ok(Catch::At(step)),
+                Run::Passed(_) => Ok(Catch::Not),
+                Run::Stopped(_) => Ok(Catch::Stopped),
             }
         })
     }
@@ -281,11 +307,12 @@ impl Prover {
         sources: &Sources,
         programs: &Programs,
         inputs: &[&str],
+        keep: impl FnOnce(&T) -> bool,
         find: impl FnOnce(&Folder) -> Result<T, FlowError>,
     ) -> Result<T, FlowError> {
         let mut all = vec![programs.yosys.text.as_bytes(), programs.yices.text.as_bytes()];
         all.extend(inputs.iter().map(|text| text.as_bytes()));
-        flow::cached(&self.cache, &format!("sam_{}", build.module), sources, &all, find)
+        flow::cached(&self.cache, &format!("sam_{}", build.module), sources, &all, keep, find)
     }
 }
 

@@ -37,7 +37,8 @@ impl Prover {
         let script = script(&flow::read_commands(&sources, module, &interface.parameters), module);
         let limit = LIMIT.to_string();
         let inputs = [&yosys.text, &script, &limit].map(|text| text.as_bytes());
-        flow::cached(&self.cache, module, &sources, &inputs, |folder| {
+        let keep = |found: &Equivalence| found.points > 0;
+        flow::cached(&self.cache, module, &sources, &inputs, keep, |folder| {
             let started = Instant::now();
             let mut command = folder.limited(&yosys, LIMIT);
             let output = folder.output(command.args(["-q", "-p", &script]))?;

@@ -138,6 +138,18 @@ impl Record {
         faults
     }
 
+    /// Netlists that were proved for the record and are not any more, a line each.
+    pub fn lost_netlists(&self, netlists: &[Compared]) -> Vec<String> {
+        let is_lost = |new: &&Compared| {
+            let is_it = |old: &&Compared| (&old.target, &old.config) == (&new.target, &new.config);
+            let old = self.netlists.iter().find(is_it);
+            !new.equivalence.closes() && old.is_some_and(|old| old.equivalence.closes())
+        };
+        let tell =
+            |new: &Compared| format!("{} {}: proved in {FILE}, not now", new.target, new.config);
+        netlists.iter().filter(is_lost).map(tell).collect()
+    }
+
     /// The tables of a workspace's page.
     pub fn tables(&self, workspace: &Path) -> String {
         let mut text = String::new();

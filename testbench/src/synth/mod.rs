@@ -165,6 +165,6 @@ impl Design<'_> {
         inputs: &[&[u8]],
         measure: impl FnOnce(&Folder) -> Result<T, SynthError>,
     ) -> Result<T, SynthError> {
-        flow::cached(self.cache, self.module(), self.sources, inputs, measure)
+        flow::cached(self.cache, self.module(), self.sources, inputs, |_| true, measure)
     }
 }
