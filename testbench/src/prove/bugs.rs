@@ -593,8 +593,8 @@ pub const BUGS: &[Bug] = &[
         "8 slots",
         "slot_queue",
         "nothing_made",
-        "secondary_gone_q <= ~front_ready & front_secondary & secondary_done",
-        "secondary_gone_q <= 1'b0",
+        "primary_gone_q   <= ~front_ready & front_primary & primary_done",
+        "primary_gone_q   <= 1'b0",
     ),
     bug_in(
         "8 slots",

@@ -103,8 +103,13 @@ impl Effort {
             "primary" => [2, 14],
             _ => [3, 10],
         };
-        let is_system = ["hybrid", "stereo", "mono", "hybrid_back"].contains(&module);
-        Effort { induction, bound, deep: if is_system { &DEEP } else { &[] } }
+        let deep: &[(&str, u32)] = match module {
+            "hybrid" | "stereo" | "mono" | "hybrid_back" => &DEEP,
+            // It takes 30 beats to count too many.
+            "filter" => &[("p_range", 33)],
+            _ => &[],
+        };
+        Effort { induction, bound, deep }
     }
 
     /// Whether a module is in the short set: those whose first build takes a few seconds.
