@@ -32,11 +32,15 @@ fn recorded() -> Rows {
 fn large_triangles_take_little_more_than_half_the_clocks() {
     let pipelines = pipelines();
     for (turned, rows) in &recorded().sizes {
-        // Of triangles turned further one view is much narrower than the other.
-        let limit = if *turned <= 45 { 0.55 } else { 0.57 };
         for row in rows {
             let size: u32 = row.name.trim_end_matches(" px").parse().expect("pixels");
-            assert!(row.clocks() <= if size < 64 { 1.0 } else { limit }, "{turned} {row:?}");
+            // What is aimed at is 0.55; docs/stereo.md says why some triangles turned any way miss it.
+            let limit = match (size, *turned) {
+                (..64, _) => 1.0,
+                (64..128, 46..) => 0.57,
+                _ => 0.55,
+            };
+            assert!(row.clocks() <= limit, "{turned} {row:?}");
             // What a pass cannot avoid, a row's overhang, and what is drawn for one eye after the other.
             assert!(size < 64 || row.clocks() <= row.bound() + 0.035, "{turned} {row:?}");
             if [8, 64].contains(&size) {

@@ -212,7 +212,7 @@ pub fn triangles(size: u32, turned: u32) -> Scene {
     let mut rng = Rng::with_seed(size.into());
     let mut mesh = Mesh::default();
     let side = f64::from(size);
-    let count = (COVERED / (0.2 * side * side)).clamp(60.0, 4000.0) as u32;
+    let count = (COVERED / (0.2 * side * side)).clamp(300.0, 4000.0) as u32;
     for n in 0..count {
         mesh.positions.extend(triangle(&mut rng, &rig, side, turned));
         mesh.triangles.push([0, 1, 2].map(|k| 3 * n + k));

@@ -112,10 +112,9 @@ impl Effort {
         Effort { induction, bound, deep }
     }
 
-    /// Whether a module is in the short set: those whose first build takes a few seconds.
+    /// Whether a module is in the short set: those whose first build takes half a minute at most.
     pub fn is_quick(module: &str) -> bool {
-        !["blend", "coverage_edge", "filter_division", "primary_planes", "hybrid_planes"]
-            .contains(&module)
+        !["coverage_edge", "primary_planes", "hybrid_planes"].contains(&module)
     }
 
     /// What a default test can afford.

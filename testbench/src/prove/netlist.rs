@@ -58,7 +58,7 @@ impl Prover {
     }
 }
 
-/// Yosys commands: the Verilog elaborated, the netlist made as its gates are counted, both compared.
+/// Yosys commands: the Verilog elaborated, the netlist of generic gates, both compared.
 fn script(read: &str, module: &str) -> String {
     format!(
         "{read}hierarchy -top {module}; design -save rtl; \
