@@ -121,6 +121,8 @@ pub struct Library {
     loaded: Arc<Loaded>,
     /// Where instances leave their coverage.
     collector: Option<Arc<Collector>>,
+    /// Static inputs of the last run of which the coverage was counted.
+    statics: Arc<Mutex<Vec<u64>>>,
 }
 
 impl Library {
@@ -150,12 +152,18 @@ impl Library {
         let api = unsafe { Api::of(&object) }.map_err(at)?;
         let (interface, probes) = (interface.clone(), probes.to_vec());
         let loaded = Loaded { api, interface, probes, layout, _object: object };
-        Ok(Library { loaded: Arc::new(loaded), collector: None })
+        Ok(Library { loaded: Arc::new(loaded), collector: None, statics: Arc::default() })
     }
 
     /// The same, whose instances leave their coverage in `collector` when they are dropped.
     pub(crate) fn covering(self, collector: Arc<Collector>) -> Library {
         Library { collector: Some(collector), ..self }
+    }
+
+    /// Notes the static inputs of a run; gives those of the run before, none at first.
+    fn replace_statics(&self, now: Vec<u64>) -> Vec<u64> {
+        let mut statics = self.statics.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::replace(&mut statics, now)
     }
 
     /// The module's interface.
@@ -316,11 +324,22 @@ impl Model {
         self.eval();
     }
 
-    /// Leaves out of the coverage what registers did on their way from a random state into reset.
+    /// Leaves out of the coverage what registers did on their way from a random state into reset. Static
+    /// inputs change between runs, not within one: they get what the run before had, then their own values again.
     fn forget_start(&mut self) {
-        if self.library.collector.is_some() {
-            // SAFETY: the handle lives.
-            unsafe { (self.library.loaded.api.coverage_clear)(self.handle.as_ptr()) }
+        if self.library.collector.is_none() {
+            return;
+        }
+        // SAFETY: the handle lives.
+        unsafe { (self.library.loaded.api.coverage_clear)(self.handle.as_ptr()) }
+        let count = self.library.interface().statics.len();
+        let inputs: Vec<usize> =
+            (0..count).map(|index| self.library.layout().static_input(index)).collect();
+        let now: Vec<u64> = inputs.iter().map(|&input| self.peek(input)).collect();
+        let before = self.library.replace_statics(now.clone());
+        for values in [before, now] {
+            inputs.iter().zip(values).for_each(|(&input, value)| self.poke(input, value));
+            self.eval();
         }
     }
 
