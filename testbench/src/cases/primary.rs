@@ -182,7 +182,43 @@ pub fn corners(target: Target, config: &Config) -> Case {
         };
         records.push((walk, Planes::default()));
     }
-    of(target, config, "flat and steep edges, both ends of the columns, many rows", 6, &records)
+    records.extend((0..FRACTION_BITS).map(|bit| barely_whole(bit, f)));
+    let name = "flat and steep edges, both ends of the columns, many rows, barely whole planes";
+    of(target, config, name, 6, &records)
+}
+
+/// Planes that are a whole number after a step and after a row, in which this bit of the fraction was 1 before:
+/// where it gets lost, or comes from nowhere, the number is another one.
+fn barely_whole(bit: u32, f: &Formats) -> (Walk, Planes) {
+    let low = 1i64 << bit;
+    let colour = |whole: i64| ColourPlane::new((whole << FRACTION_BITS) + low, f);
+    let back = ColourPlane::new(-low, f);
+    let walk = Walk {
+        rows: Coordinate::new(3, f),
+        x: PixelX::new(2, f),
+        left: PixelX::new(2, f),
+        right: PixelX::new(4, f),
+        y_step: DisplayStep::new(1, f),
+        ..Walk::default()
+    };
+    let planes = Planes {
+        z_start: DepthPlane::new((90_000 << FRACTION_BITS) + low, f),
+        z_a: DepthPlane::new(-low, f),
+        z_row: DepthPlane::new(-low, f),
+        red_start: colour(17),
+        red_a: back,
+        red_row: back,
+        green_start: colour(100),
+        green_a: back,
+        green_row: back,
+        blue_start: colour(200),
+        blue_a: back,
+        blue_row: back,
+        alpha_start: colour(129),
+        alpha_a: back,
+        alpha_row: back,
+    };
+    (walk, planes)
 }
 
 /// Frame buffers that note what passes to and from them.
