@@ -23,12 +23,15 @@ fn visited(
     let edges = registers.view.edges();
     let (walk, _) = registers.records(part, [edges[0], edges[1], edges[2]], true, f);
     let mut rows: Vec<[i64; 3]> = Vec::new();
-    let mut lasts = 0;
+    let (mut starts, mut lasts) = (Vec::new(), 0);
     traverse(&walk, f, |visit: &Visit| {
         let (x, y) = (visit.x.raw(), visit.y.raw());
         match (visit.op, rows.last_mut()) {
             (Op::Step, Some(row)) => row[2] = x,
-            _ => rows.push([y, x, x]),
+            _ => {
+                rows.push([y, x, x]);
+                starts.push(x);
+            }
         }
         if let (true, Some(row)) = (visit.save, rows.last_mut()) {
             row[1] = x;
@@ -39,6 +42,12 @@ fn visited(
         lasts += i32::from(visit.last);
     });
     assert_eq!(lasts, 1, "one pixel is the last");
+    // A row that begins right of the least movement is met a pixel further at once, unless it creeps there.
+    for (n, pair) in rows.windows(2).enumerate() {
+        let least = pair[0][1] + walk.x_row.raw();
+        let further = pair[1][1] > least && !walk.creep;
+        assert_eq!(starts[n + 1], least + i64::from(further), "row {n}");
+    }
     rows
 }
 

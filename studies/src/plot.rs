@@ -185,7 +185,7 @@ mod tests {
             let markers = some.iter().flat_map(|s| &s.points).filter(|p| is_finite(p)).count();
             assert_eq!(text.matches("<circle").count(), markers);
         }
-        assert!(lines(&folder.join("none/plot.svg"), "", ["", ""], &[]).is_err());
+        assert!(lines(&file.join("plot.svg"), "", ["", ""], &[]).is_err(), "a file is no folder");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
