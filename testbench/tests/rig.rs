@@ -128,7 +128,7 @@ fn the_rig_is_told_in_tables_plots_and_json() {
         ("rig --at 1,x", "expected distances from the eyes"),
         ("rig --scene nothing", "scene nothing: expected"),
         ("rig --out /proc/none", "/proc/none"),
-        ("rig --json none/r.json", "none/r.json: cannot be written"),
+        ("rig --json /proc/none/r.json", "none/r.json: cannot be written"),
     ] {
         let output = run(folder.path(), line);
         assert_eq!(output.status.code(), Some(2), "{line}");

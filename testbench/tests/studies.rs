@@ -55,8 +55,8 @@ fn bad_input_of_reproduce_has_status_2() {
     refused(&["reproduce", "filter"], "--out");
     refused(&["reproduce", "filter", "--out", "taken"], "taken/filter: cannot be written");
     refused(&["reproduce", "filter", "--out", "/proc/found"], "cannot be written");
-    let json = ["reproduce", "filter", "--out", "found", "--json", "none/all.json"];
-    refused(&json, "none/all.json: cannot be written");
+    let json = ["reproduce", "filter", "--out", "found", "--json", "taken/all.json"];
+    refused(&json, "taken/all.json: cannot be written");
 }
 
 #[test]
