@@ -28,8 +28,9 @@ fn mixed(out: &Path) -> Result<Report, StudyError> {
 }
 
 fn unwritable(out: &Path) -> Result<Report, StudyError> {
+    write_file(&out.join("none"), b"")?;
     write_file(&out.join("none/plot.svg"), b"")?;
-    unreachable!("the folder is not there")
+    unreachable!("a file is no folder")
 }
 
 const MIXED: Experiment = Experiment { name: "mixed", description: "a bit of all", run: mixed };
