@@ -261,6 +261,14 @@ pub fn job<'a>(
     }
 }
 
+/// The case of a job that is drawn as it is.
+fn simply(target: Target, job: &Job, name: &str) -> Case {
+    let minimal = target == Target::Minimal;
+    let mut tape = Tape::new(job, minimal, false);
+    job.run(minimal, tape.sink());
+    whole(target, job, name, tape)
+}
+
 /// Every kind of bad setup between good polygons, beats that no polygon owns, polygons on top of
 /// each other, and both eyes on one display that is turned, where a place passes every
 /// part of the way to it.
@@ -294,22 +302,16 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
 
     let crowd = crowd(6, f, [16, 12], 240);
     let crowd = job(config, options, [16, 12], &crowd);
-    let mut tape = Tape::new(&crowd, minimal, false);
-    crowd.run(minimal, tape.sink());
-    let crowded = whole(target, &crowd, "polygons on top of each other", tape);
+    let crowded = simply(target, &crowd, "polygons on top of each other");
 
     let turned = Options { arrangement: Arrangement::Rotated, single: true, ..options };
     let turned = job(config, turned, size, &polygons[..12]);
-    let mut tape = Tape::new(&turned, minimal, false);
-    turned.run(minimal, tape.sink());
-    let turned = whole(target, &turned, "one display, rotated", tape);
+    let turned = simply(target, &turned, "one display, rotated");
 
     // The secondary leaves through the first and the last row.
     let raised: Vec<Polygon> = polygons.iter().map(|polygon| raised(polygon, f, size[1])).collect();
     let raised = job(config, options, size, &raised);
-    let mut tape = Tape::new(&raised, minimal, false);
-    raised.run(minimal, tape.sink());
-    let raised = config.tilt.then(|| whole(target, &raised, "one eye raised", tape));
+    let raised = config.tilt.then(|| simply(target, &raised, "one eye raised"));
 
     let mut cleared = Case { name: "bad setups, error cleared".into(), ..spoiled.clone() };
     cleared.statics[ERROR_CLEAR] = 1;
@@ -319,10 +321,7 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
     let stray = Some(stray).filter(|_| !stereo);
     let largest = largest(config).into_iter().map(|large| {
         let Large { name, size, options, polygons } = large;
-        let job = job(config, options, size, &polygons);
-        let mut tape = Tape::new(&job, minimal, false);
-        job.run(minimal, tape.sink());
-        whole(target, &job, &name, tape)
+        simply(target, &job(config, options, size, &polygons), &name)
     });
     let every = (target == Target::Hybrid).then(|| every_kind(config));
     let rest = [crowded, turned, cleared].into_iter().chain(raised).chain(largest).chain(every);

@@ -84,11 +84,7 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
 
 /// Writes rows into the record of the workspace.
 fn record(root: &Path, config: &str, rows: Rows) -> Result<(), Failure> {
-    // The first one has nothing before it.
-    let mut recorded = match root.join(baseline::FILE).exists() {
-        true => Recorded::read(root)?,
-        false => Recorded::default(),
-    };
+    let mut recorded = recorded(root, baseline::FILE, Recorded::read)?;
     recorded.0.insert(config.to_owned(), rows);
     recorded.write(root)?;
     say!("{}: written; now run: wheatstone generate", baseline::FILE);
@@ -98,11 +94,5 @@ fn record(root: &Path, config: &str, rows: Rows) -> Result<(), Failure> {
 /// Compares rows with the record of the workspace.
 fn check(root: &Path, config: &str, rows: &Rows) -> Result<u8, Failure> {
     let faults = rows.faults(&Recorded::read(root)?.of(config));
-    if faults.is_empty() {
-        say!("as recorded in {}", baseline::FILE);
-        return Ok(OK);
-    }
-    faults.iter().for_each(|fault| say!("{fault}"));
-    say!("if this is meant, update the record with --record in place of --check");
-    Ok(MISMATCH)
+    Ok(checked(&faults, baseline::FILE))
 }

@@ -427,14 +427,33 @@ fn root() -> Result<PathBuf, Failure> {
     workspace().ok_or_else(|| Failure::Input(format!("no workspace here or above: no {MARK}")))
 }
 
+/// The record of a workspace in that file; the first one has nothing before it.
+fn recorded<R: Default, E: Into<Failure>>(
+    root: &Path,
+    file: &str,
+    read: impl FnOnce(&Path) -> Result<R, E>,
+) -> Result<R, Failure> {
+    match root.join(file).exists() {
+        true => read(root).map_err(Into::into),
+        false => Ok(R::default()),
+    }
+}
+
+/// Tells what is worse than in the record of that file, and gives the exit status.
+fn checked(faults: &[String], file: &str) -> u8 {
+    if faults.is_empty() {
+        say!("as recorded in {file}");
+        return OK;
+    }
+    faults.iter().for_each(|fault| say!("{fault}"));
+    say!("if this is meant, update the record with --record in place of --check");
+    MISMATCH
+}
+
 /// Changes the record of coverage and replay.
 fn update_record(change: impl FnOnce(&mut Record)) -> Result<(), Failure> {
     let root = root()?;
-    // The first one has nothing before it.
-    let mut record = match root.join(verification::FILE).exists() {
-        true => Record::read(&root)?,
-        false => Record::default(),
-    };
+    let mut record = recorded(&root, verification::FILE, Record::read)?;
     change(&mut record);
     record.write(&root)?;
     say!("{}: written; now run: wheatstone generate", verification::FILE);

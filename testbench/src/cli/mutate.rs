@@ -126,11 +126,7 @@ pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
 
 /// Writes a score into the record of the workspace, so that a run that is stopped loses none before it.
 fn record(root: &Path, score: &Score) -> Result<(), Failure> {
-    // The first one has nothing before it.
-    let mut scores = match root.join(FILE).exists() {
-        true => Scores::read(root)?,
-        false => Scores::default(),
-    };
+    let mut scores = recorded(root, FILE, Scores::read)?;
     scores.update(std::slice::from_ref(score));
     Ok(scores.write(root)?)
 }

@@ -110,21 +110,19 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
         let mut verdicts = entry.proof.verdicts.values();
         verdicts.any(|verdict| matches!(verdict, Verdict::Fails(_)))
     };
-    let lost = if args.check { lost(args, &proved)? } else { false };
-    Ok(if lost || proved.iter().any(fails) { MISMATCH } else { OK })
+    let lost = if args.check { lost(args, &proved)? } else { OK };
+    Ok(if proved.iter().any(fails) { MISMATCH } else { lost })
 }
 
-/// Tells what is proved for less than the record says; whether there is any.
-fn lost(args: &ProveArgs, proved: &[Proved]) -> Result<bool, Failure> {
-    let record = Record::read(&root()?).map_err(|error| Failure::Input(error.to_string()))?;
+/// Reads the record of a workspace.
+fn read(root: &Path) -> Result<Record, Failure> {
+    Record::read(root).map_err(|error| Failure::Input(error.to_string()))
+}
+
+/// Tells what is proved for less than the record says, and gives the exit status.
+fn lost(args: &ProveArgs, proved: &[Proved]) -> Result<u8, Failure> {
     let clocks = if args.quick { Clocks::Ignore } else { Clocks::Count };
-    let faults = record.faults(proved, clocks);
-    faults.iter().for_each(|fault| say!("{fault}"));
-    match faults.is_empty() {
-        true => say!("as recorded in {}", record::FILE),
-        false => say!("if this is meant, update the record with --record in place of --check"),
-    }
-    Ok(!faults.is_empty())
+    Ok(checked(&read(&root()?)?.faults(proved, clocks), record::FILE))
 }
 
 fn print_proofs(prover: &Prover, proved: &[Proved]) -> Result<(), Failure> {
@@ -233,10 +231,7 @@ fn netlists(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8,
         update(&[], &compared)?;
     }
     if args.check {
-        let record = Record::read(&root()?).map_err(|error| Failure::Input(error.to_string()))?;
-        let lost = record.lost_netlists(&compared);
-        lost.iter().for_each(|lost| say!("{lost}"));
-        return Ok(if lost.is_empty() { OK } else { MISMATCH });
+        return Ok(checked(&read(&root()?)?.lost_netlists(&compared), record::FILE));
     }
     // One that does not close in time is open, not different.
     let differs = |entry: &Compared| entry.equivalence.points > 0 && !entry.equivalence.closes();
@@ -259,11 +254,7 @@ fn write_json(
 /// Writes into the record of the workspace.
 fn update(proofs: &[Proved], netlists: &[Compared]) -> Result<(), Failure> {
     let root = root()?;
-    // The first one has nothing before it.
-    let mut record = match root.join(record::FILE).exists() {
-        true => Record::read(&root).map_err(|error| Failure::Input(error.to_string()))?,
-        false => Record::default(),
-    };
+    let mut record = recorded(&root, record::FILE, read)?;
     record.update(proofs, netlists);
     record.write(&root)?;
     say!("{}: written; now run: wheatstone generate", record::FILE);

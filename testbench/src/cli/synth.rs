@@ -148,11 +148,7 @@ fn print_table(entries: &[Entry], tech: Tech) {
 
 fn write_record(entries: &[Entry]) -> Result<(), Failure> {
     let root = root()?;
-    // The first one has nothing before it.
-    let mut record = match root.join(record::FILE).exists() {
-        true => Record::read(&root)?,
-        false => Record::default(),
-    };
+    let mut record = recorded(&root, record::FILE, Record::read)?;
     record.update(entries);
     record.write(&root)?;
     say!("{}: written; now run: wheatstone generate", record::FILE);
@@ -161,11 +157,5 @@ fn write_record(entries: &[Entry]) -> Result<(), Failure> {
 
 fn check(entries: &[Entry]) -> Result<u8, Failure> {
     let faults = Record::read(&root()?)?.faults(entries);
-    if faults.is_empty() {
-        say!("as recorded in {}", record::FILE);
-        return Ok(OK);
-    }
-    faults.iter().for_each(|fault| say!("{fault}"));
-    say!("if this is meant, update the record with --record in place of --check");
-    Ok(MISMATCH)
+    Ok(checked(&faults, record::FILE))
 }

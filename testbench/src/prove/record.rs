@@ -49,6 +49,13 @@ pub struct Compared {
     pub equivalence: Equivalence,
 }
 
+impl Compared {
+    /// Whether both are of the same target in the same configuration.
+    fn is_same(&self, other: &Compared) -> bool {
+        (&self.target, &self.config) == (&other.target, &other.config)
+    }
+}
+
 /// The record could not be read.
 #[derive(Debug, Error)]
 #[error("{}: {why}; write it with: wheatstone prove --record", .path.display())]
@@ -102,10 +109,7 @@ impl Record {
         self.proofs.retain(|old| !proofs.iter().any(|new| new.module == old.module));
         self.proofs.extend_from_slice(proofs);
         self.proofs.sort_by_key(|entry| entry.module.clone());
-        let same = |old: &Compared, new: &Compared| {
-            (&old.target, &old.config) == (&new.target, &new.config)
-        };
-        self.netlists.retain(|old| !netlists.iter().any(|new| same(old, new)));
+        self.netlists.retain(|old| !netlists.iter().any(|new| new.is_same(old)));
         self.netlists.extend_from_slice(netlists);
         self.netlists.sort_by_key(|entry| (entry.target.clone(), entry.config.clone()));
     }
@@ -141,8 +145,7 @@ impl Record {
     /// Netlists that were proved for the record and are not any more, a line each.
     pub fn lost_netlists(&self, netlists: &[Compared]) -> Vec<String> {
         let is_lost = |new: &&Compared| {
-            let is_it = |old: &&Compared| (&old.target, &old.config) == (&new.target, &new.config);
-            let old = self.netlists.iter().find(is_it);
+            let old = self.netlists.iter().find(|old| new.is_same(old));
             !new.equivalence.closes() && old.is_some_and(|old| old.equivalence.closes())
         };
         let tell =
