@@ -137,8 +137,10 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
         }
         Target::Traversal | Target::Primary => vec![primary::corners(target, config)],
         Target::Mono => {
-            let crowds = Eye::BOTH.map(|eye| primary::mono_crowd(config, eye));
-            crowds.into_iter().chain(primary::mono_large(config)).collect()
+            let ones = Eye::BOTH.map(|eye| {
+                [primary::mono_crowd(config, eye), primary::mono_barely_whole(config, eye)]
+            });
+            ones.into_iter().flatten().chain(primary::mono_large(config)).collect()
         }
         Target::Minimal | Target::Hybrid | Target::Stereo => systems::directed(target, config),
     }

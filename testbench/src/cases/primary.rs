@@ -182,41 +182,52 @@ pub fn corners(target: Target, config: &Config) -> Case {
         };
         records.push((walk, Planes::default()));
     }
-    records.extend((0..FRACTION_BITS).map(|bit| barely_whole(bit, f)));
+    records.extend(barely_whole(f));
     let name = "flat and steep edges, both ends of the columns, many rows, barely whole planes";
     of(target, config, name, 6, &records)
 }
 
-/// Planes that are a whole number after a step and after a row, in which this bit of the fraction was 1 before:
-/// where it gets lost, or comes from nowhere, the number is another one.
-fn barely_whole(bit: u32, f: &Formats) -> (Walk, Planes) {
+/// Planes that are a whole number after a step and after a row, in which one bit of the fraction was 1 before:
+/// where it gets lost, or comes from nowhere, the number is another one. Each part is in front of those before it.
+fn barely_whole(f: &Formats) -> Vec<(Walk, Planes)> {
+    // An even and an odd number of steps in a row: what changes and changes back shows in one of them. Rows begin
+    // at the least movement, or a pixel further.
+    let ways = [(4, false), (5, false), (4, true), (5, true)];
+    let parts = (0..FRACTION_BITS).flat_map(|bit| ways.map(|(right, moves)| (bit, right, moves)));
+    parts.zip(0..).map(|((bit, right, moves), n)| barely(bit, right, moves, n, f)).collect()
+}
+
+fn barely(bit: u32, right: i64, moves: bool, n: i64, f: &Formats) -> (Walk, Planes) {
     let low = 1i64 << bit;
     let colour = |whole: i64| ColourPlane::new((whole << FRACTION_BITS) + low, f);
     let back = ColourPlane::new(-low, f);
+    let (x_row, down) = if moves { (-1, 0) } else { (0, -low) };
+    let row = ColourPlane::new(down, f);
     let walk = Walk {
         rows: Coordinate::new(3, f),
         x: PixelX::new(2, f),
+        x_row: PixelX::new(x_row, f),
         left: PixelX::new(2, f),
-        right: PixelX::new(4, f),
+        right: PixelX::new(right, f),
         y_step: DisplayStep::new(1, f),
         ..Walk::default()
     };
     let planes = Planes {
-        z_start: DepthPlane::new((90_000 << FRACTION_BITS) + low, f),
+        z_start: DepthPlane::new(((90_000 - 8 * n) << FRACTION_BITS) + low, f),
         z_a: DepthPlane::new(-low, f),
-        z_row: DepthPlane::new(-low, f),
+        z_row: DepthPlane::new(down, f),
         red_start: colour(17),
         red_a: back,
-        red_row: back,
+        red_row: row,
         green_start: colour(100),
         green_a: back,
-        green_row: back,
+        green_row: row,
         blue_start: colour(200),
         blue_a: back,
-        blue_row: back,
+        blue_row: row,
         alpha_start: colour(129),
         alpha_a: back,
-        alpha_row: back,
+        alpha_row: row,
     };
     (walk, planes)
 }
@@ -300,4 +311,11 @@ pub fn mono_crowd(config: &Config, eye: Eye) -> Case {
     let name = format!("polygons on top of each other, {} eye", eye.name());
     let polygons = for_one_eye(polygons, eye);
     monocular(&systems::job(config, Options::new(config), size, &polygons), eye, &name)
+}
+
+/// Planes that are barely whole numbers, for an eye.
+pub fn mono_barely_whole(config: &Config, eye: Eye) -> Case {
+    let nothing = systems::job(config, Options::new(config), [16, 12], &[]);
+    let name = format!("barely whole planes, {} eye", eye.name());
+    drawn(&nothing, &name, eye, &barely_whole(&Formats::new(config)))
 }

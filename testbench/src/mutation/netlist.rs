@@ -90,9 +90,10 @@ impl Netlist {
         let design = Design { interface, sources: &sources, cache };
         let work = Folder::of(cache, design.module(), &sources)?;
         let module = interface.module;
-        // Its count includes the one that changes nothing.
+        // What is beyond a table reads as 0 everywhere: left open, simulation and proof would differ.
+        // The count includes the mutant that changes nothing.
         let script = format!(
-            "{}prep -flatten -top {module}; write_rtlil {DESIGN}; \
+            "{}prep -flatten -top {module}; chtype -set $shift t:$shiftx; write_rtlil {DESIGN}; \
              mutate -list {} -seed {seed} -none -ctrl {SELECT}_i {SELECT_BITS} 0 -o list; script list; \
              splitnets -driver; write_verilog -noattr {NETLIST}/{module}.v",
             design.read_commands(),
