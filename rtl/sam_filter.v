@@ -124,7 +124,7 @@ module sam_filter #(
     // The sum holds its rounding already where the division is exact.
     wire [5:0] f_rounding = FILTER_TERMS != 0 | f_count == 0 ? 0 : f_count == 1 ? 1 : f_count / 2;
     reg  [12:0] f_sum [0:CHANNELS-1];
-    wire [CHANNELS-1:0] f_good;
+    wire [CHANNELS-1:0] f_good, f_divided;
     wire f_reciprocal;
     // Of the exact division what it divides, as products are hard to compare.
     wire [69:0] f_colour = FILTER_TERMS == 0 ? {factor, f_sums} : pixel_rgba_o;
@@ -140,6 +140,16 @@ module sam_filter #(
         for (f_i = 0; f_i < CHANNELS; f_i = f_i + 1) begin : g_f_channel
             assign f_sums[13*f_i +: 13] = g_channel[f_i].sum_q;
             assign f_good[f_i] = g_channel[f_i].sum_q == f_sum[f_i] + f_rounding;
+            wire [7:0] f_quotient;
+            sam_filter_division #(
+                .FILTER_TERMS(FILTER_TERMS)
+            ) u_f_division (
+                .sum_i     (g_channel[f_i].sum_q),
+                .count_i   (count_q),
+                .factor_i  (factor),
+                .quotient_o(f_quotient)
+            );
+            assign f_divided[f_i] = pixel_rgba_o[8*f_i +: 8] == f_quotient;
             always @(posedge clk_i) if (f_take) begin
                 f_sum[f_i] <= (beat_first_i ? 0 : f_sum[f_i]) + (f_adds ? beat_rgba_i[8*f_i +: 8] : 0);
             end
@@ -166,8 +176,10 @@ module sam_filter #(
         p_count: assert (~f_known | pixel_count_o == f_count);
         // Without any the pixel is black and transparent.
         p_empty: assert (~f_known | ~f_held | f_count != 0 | pixel_rgba_o == 0);
-        // The sums of all channels are divided, with the reciprocal of the count.
+        // The sums of all channels are what is divided, the reciprocal is that of the count,
         p_sums: assert (~f_known | (&f_good & f_reciprocal));
+        // and each channel of the pixel is the quotient of its own sum and the count.
+        p_divided: assert (&f_divided);
         // Lemma: the sum of nothing is nothing.
         lemma: assert (~f_known | f_count != 0 | {f_sum[0], f_sum[1], f_sum[2], f_sum[3]} == 0);
     end

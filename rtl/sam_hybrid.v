@@ -414,10 +414,16 @@ module sam_hybrid #(
     // A polygon that no mode allows, or none yet, and then nothing else.
     wire f_illegal = setup_mode_i > 3 | (setup_mode_i[1] & (setup_lend_i | setup_x_step_i < 565
                                                             | setup_x_step_i > 1 << `SAM_FRACTION_BITS));
-    reg f_void;
-    wire f_starts = f_take & beat_op_i == `SAM_OP_LOAD & ~f_illegal;
+    reg f_void, f_bad;
+    wire f_load   = f_take & beat_op_i == `SAM_OP_LOAD;
+    wire f_starts = f_load & ~f_illegal;
+    // Which of the last three beats are of such a polygon, the latest first, if the error was not cleared since.
+    reg  [2:0] f_due;
+    wire f_bad_beat = f_load ? f_illegal : f_bad;
     always @(posedge clk_i) begin
         f_void <= rst_i | (f_void & ~f_starts);
+        f_bad  <= rst_i | f_bad_beat;
+        f_due  <= rst_i | error_clear_i ? 0 : f_take ? {f_due[1:0], f_bad_beat} : f_due;
         assume (`SAM_WAITS(beat_valid_i, beat_ready_o, {beat_op_i, beat_save_i, beat_last_i, beat_centre_i,
                            beat_mask_i, beat_x_i, beat_y_i, beat_rgba_i, beat_depth_i}));
         assume (`SAM_WAITS(setup_valid_i, setup_ready_o, {setup_mode_i, setup_lend_i, setup_average_i,
@@ -465,7 +471,9 @@ module sam_hybrid #(
         p_never_hangs: assert (f_waited <= SLOTS + 8);
         // Before a good setup nothing is read or drawn.
         p_void: assert (~f_void | (~request_valid_o & ~left_valid_o & ~right_valid_o));
-        // The error stays until it is cleared.
+        // The error is up at the latest when the third beat after a bad one has been taken,
+        p_error_rises: assert ($past(rst_i | ~f_take | ~f_due[2] | error_clear_i) | error_o);
+        // and stays until it is cleared.
         p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);
     end
 `endif

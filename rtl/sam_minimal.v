@@ -272,10 +272,16 @@ module sam_minimal #(
     // A polygon that no mode allows, or none yet, and then nothing else.
     wire f_illegal = setup_mode_i > 3 | (setup_mode_i[1] & (setup_lend_i | setup_x_step_i < 565
                                                             | setup_x_step_i > 1 << `SAM_FRACTION_BITS));
-    reg f_void;
-    wire f_starts = f_take & beat_op_i == `SAM_OP_LOAD & ~f_illegal;
+    reg f_void, f_bad;
+    wire f_load   = f_take & beat_op_i == `SAM_OP_LOAD;
+    wire f_starts = f_load & ~f_illegal;
+    // The beat that was taken last is of such a polygon, and the error was not cleared since.
+    reg  f_due;
+    wire f_bad_beat = f_load ? f_illegal : f_bad;
     always @(posedge clk_i) begin
         f_void <= rst_i | (f_void & ~f_starts);
+        f_bad  <= rst_i | f_bad_beat;
+        f_due  <= ~rst_i & (f_take ? f_bad_beat : f_due & ~error_clear_i);
         assume (`SAM_WAITS(beat_valid_i, beat_ready_o, {beat_op_i, beat_save_i, beat_last_i, beat_centre_i,
                            beat_mask_i, beat_x_i, beat_y_i, beat_rgba_i, beat_depth_i}));
         assume (`SAM_WAITS(setup_valid_i, setup_ready_o, {setup_mode_i, setup_lend_i, setup_average_i,
@@ -320,6 +326,8 @@ module sam_minimal #(
         p_void: assert (~f_void | (~left_valid_o & ~right_valid_o));
         // The error is raised by a void beat only,
         p_error: assert ($past(rst_i) | ~error_o | $past(error_o) | $past(f_void) | $past(s1_void));
+        // is up at the latest when the beat after a bad one has been taken,
+        p_error_rises: assert ($past(rst_i | ~f_take | ~f_due | error_clear_i) | error_o);
         // and stays until it is cleared.
         p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);
         // A beat gives two pixels at most, a primary and a secondary.

@@ -223,7 +223,7 @@ module sam_mono #(
                           pixel_x_o, pixel_y_o, pixel_rgba_o, pixel_area_o, pixel_depth_o}));
         // All pixels and reads are of the one eye.
         p_eye: assert ((~pixel_valid_o | pixel_eye_o == eye_i) & (~request_valid_o | request_eye_o == eye_i));
-        // Every pixel was read for, and has its background.
+        // No more pixels come than were read for, and each says that it is blended.
         p_nothing_made: assert (f_drawn + pixel_valid_o <= f_asked & (~pixel_valid_o | pixel_blended_o));
         // Planes are taken with their parts: at most one is before its planes.
         p_planes: assert (f_walks <= 1);

@@ -110,10 +110,7 @@ pub(crate) const STOPPED: i32 = 124;
 impl Folder {
     /// A folder below `cache`.
     pub fn of(cache: &Path, module: &str, sources: &Sources) -> Result<Folder, FlowError> {
-        let at = |source| WriteError { file: cache.to_owned(), source };
-        fs::create_dir_all(cache).map_err(at)?;
-        let scratch = Scratch::new(cache).map_err(at)?;
-        let folder = Folder { folder: scratch, module: module.to_owned() };
+        let folder = Folder { folder: Scratch::below(cache)?, module: module.to_owned() };
         for (name, content) in sources {
             folder.write(name, content)?;
         }

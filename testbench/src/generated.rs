@@ -114,6 +114,7 @@ impl Generated {
             Generated::Formal => {
                 let record = record::Record::read(workspace)?;
                 let text = self.between(present, "proofs", &record.tables(workspace))?;
+                let text = self.between(&text, "time", &record.time())?;
                 self.between(&text, "netlists", &record.netlist_table())
             }
             Generated::Readme => {

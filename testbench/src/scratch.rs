@@ -5,6 +5,7 @@ use std::io;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
+use wheatstone_golden::picture::WriteError;
 
 const PREFIX: &str = ".wheatstone-";
 const SUFFIX: &str = ".part";
@@ -19,6 +20,13 @@ pub(crate) struct Scratch {
 }
 
 impl Scratch {
+    /// A new folder in `parent`, which is made if there is none.
+    pub fn below(parent: &Path) -> Result<Scratch, WriteError> {
+        let at = |source| WriteError { file: parent.to_owned(), source };
+        fs::create_dir_all(parent).map_err(at)?;
+        Scratch::new(parent).map_err(at)
+    }
+
     /// A new folder in `parent`.
     pub fn new(parent: &Path) -> io::Result<Scratch> {
         sweep(parent);

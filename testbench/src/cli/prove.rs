@@ -1,8 +1,9 @@
 //! `wheatstone prove`.
 
 use super::*;
-use crate::prove::record::{self, shown, Clocks, Compared, Proved, Record};
+use crate::prove::record::{self, shown, Clocks, Compared, Proved, Record, Whole};
 use crate::prove::{name, properties, Bug, Catch, Effort, Prover, Verdict, BUGS};
+use crate::scratch::Scratch;
 use rayon::prelude::*;
 use std::time::Instant;
 use wheatstone_golden::config::Config;
@@ -19,28 +20,41 @@ pub(super) struct ProveArgs {
     /// Plant each property's bugs and see the property fail; exit status 1 if one does not
     #[arg(long, conflicts_with = "netlist")]
     bugs: bool,
-    /// Prove the netlists of gates equal to the Verilog instead, in the configurations paper and default; exit
-    /// status 1 if one is not
+    /// Compare the netlists of gates with the Verilog instead, in the configurations paper and default; exit
+    /// status 1 if one differs. What is not decided in a minute does not
     #[arg(long)]
     netlist: bool,
+    /// Prove anew what was proved before, and keep nothing of it: for the time that the whole run takes
+    #[arg(long)]
+    fresh: bool,
     /// Write a JSON report
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Compare with the committed record: exit status 1 if something is proved for less than it says. On a
-    /// busy machine provers, which have a minute each, may come less far
+    /// Compare with the committed record: exit status 1 if something is proved for less than it says, or
+    /// everything, with --fresh, took more than 20 minutes. On a busy machine provers, which have a minute
+    /// each, may come less far
     #[arg(long, conflicts_with_all = ["bugs", "record"])]
     check: bool,
     /// Write what was proved into the record; `wheatstone generate` then renews docs/formal.md
     #[arg(long, conflicts_with = "bugs")]
     record: bool,
     /// Folder of the Verilog [default: rtl of this workspace]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with = "record")]
     rtl: Option<PathBuf>,
+}
+
+impl ProveArgs {
+    /// Whether this run proves everything, and that anew.
+    fn is_whole(&self) -> bool {
+        self.fresh && !self.quick && self.modules.is_empty()
+    }
 }
 
 pub(super) fn run(args: &ProveArgs) -> Result<u8, Failure> {
     let rtl = rtl_folder(&args.rtl)?;
     let cache = cache_folder(workspace(), Prover::CACHE, |name| std::env::var_os(name));
+    let fresh = args.fresh.then(|| Scratch::below(&cache)).transpose()?;
+    let cache = fresh.as_ref().map_or(cache, |folder| folder.path().to_owned());
     let prover = Prover { rtl, cache };
     let modules = chosen(args, &prover)?;
     match (args.bugs, args.netlist) {
@@ -98,19 +112,19 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
     proved.sort_by_key(|entry| entry.module.clone());
     print_proofs(prover, &proved)?;
     let proving: f64 = proved.iter().map(|entry| entry.proof.seconds).sum();
-    say!(
-        "{:.0} s on the clock; proving took {proving:.0} s, some of it maybe earlier",
-        started.elapsed().as_secs_f64()
-    );
+    let seconds = started.elapsed().as_secs_f64().round();
+    say!("{seconds:.0} s on the clock; provers took {proving:.0} s together, some of it maybe earlier");
     write_json(args, "proofs", &proved)?;
+    let cores = rayon::current_num_threads();
+    let whole = args.is_whole().then_some(Whole { seconds, cores });
     if args.record {
-        update(&proved, &[])?;
+        update(&proved, &[], whole)?;
     }
     let fails = |entry: &Proved| {
         let mut verdicts = entry.proof.verdicts.values();
         verdicts.any(|verdict| matches!(verdict, Verdict::Fails(_)))
     };
-    let lost = if args.check { lost(args, &proved)? } else { OK };
+    let lost = if args.check { lost(args, &proved, whole)? } else { OK };
     Ok(if proved.iter().any(fails) { MISMATCH } else { lost })
 }
 
@@ -119,10 +133,12 @@ fn read(root: &Path) -> Result<Record, Failure> {
     Record::read(root).map_err(|error| Failure::Input(error.to_string()))
 }
 
-/// Tells what is proved for less than the record says, and gives the exit status.
-fn lost(args: &ProveArgs, proved: &[Proved]) -> Result<u8, Failure> {
+/// Tells what is proved for less than the record says, or too slowly, and gives the exit status.
+fn lost(args: &ProveArgs, proved: &[Proved], whole: Option<Whole>) -> Result<u8, Failure> {
     let clocks = if args.quick { Clocks::Ignore } else { Clocks::Count };
-    Ok(checked(&read(&root()?)?.faults(proved, clocks), record::FILE))
+    let mut faults = read(&root()?)?.faults(proved, clocks);
+    faults.extend(whole.and_then(Whole::fault));
+    Ok(checked(&faults, record::FILE))
 }
 
 fn print_proofs(prover: &Prover, proved: &[Proved]) -> Result<(), Failure> {
@@ -228,14 +244,15 @@ fn netlists(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8,
     }
     write_json(args, "netlists", &compared)?;
     if args.record {
-        update(&[], &compared)?;
+        update(&[], &compared, None)?;
     }
-    if args.check {
-        return Ok(checked(&read(&root()?)?.lost_netlists(&compared), record::FILE));
-    }
+    let lost = match args.check {
+        true => checked(&read(&root()?)?.lost_netlists(&compared), record::FILE),
+        false => OK,
+    };
     // One that does not close in time is open, not different.
     let differs = |entry: &Compared| entry.equivalence.points > 0 && !entry.equivalence.closes();
-    Ok(if compared.iter().any(differs) { MISMATCH } else { OK })
+    Ok(if compared.iter().any(differs) { MISMATCH } else { lost })
 }
 
 fn write_json(
@@ -252,10 +269,11 @@ fn write_json(
 }
 
 /// Writes into the record of the workspace.
-fn update(proofs: &[Proved], netlists: &[Compared]) -> Result<(), Failure> {
+fn update(proofs: &[Proved], netlists: &[Compared], whole: Option<Whole>) -> Result<(), Failure> {
     let root = root()?;
     let mut record = recorded(&root, record::FILE, read)?;
     record.update(proofs, netlists);
+    record.whole = whole.or(record.whole);
     record.write(&root)?;
     say!("{}: written; now run: wheatstone generate", record::FILE);
     Ok(())

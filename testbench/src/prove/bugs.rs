@@ -335,6 +335,13 @@ pub const BUGS: &[Bug] = &[
     bug_in("paper", "filter", "empty", "beat_first_i ? 13'd0 : sum_q", "sum_q"),
     bug("filter", "sums", "add ? {5'd0", "beat_include_i ? {5'd1"),
     bug(
+        "filter",
+        "divided",
+        ".quotient_o(pixel_rgba_o[8*i +: 8])",
+        ".quotient_o(pixel_rgba_o[24 - 8*i +: 8])",
+    ),
+    bug_in("paper", "filter", "divided", ".count_i   (count_q)", ".count_i   (5'd1)"),
+    bug(
         "blend",
         "stable",
         "colour_tag_o   = colour_tag_q",
@@ -522,6 +529,12 @@ pub const BUGS: &[Bug] = &[
     ),
     bug("minimal", "void", "{s1_eye, ~s1_void &", "{s1_eye, s1_valid &"),
     bug("minimal", "error", "s2_ready & s1_void);", "s2_ready);"),
+    bug(
+        "minimal",
+        "error_rises",
+        "| (s1_valid & s2_ready & s1_void);",
+        "| (s1_valid & s2_ready & s1_void & error_q);",
+    ),
     bug("minimal", "error_stays", "(error_q & ~error_clear_i)", "(error_q & error_clear_i)"),
     bug(
         "minimal",
@@ -530,6 +543,7 @@ pub const BUGS: &[Bug] = &[
         "wire offered = setup_valid_i &",
     ),
     bug("minimal", "colour", "s1_rgba_q   <= beat_rgba_i", "s1_rgba_q   <= ~beat_rgba_i"),
+    bug("hybrid", "error_rises", "| (s1_moves & s1_void)", "| (s1_moves & s1_refused & error_q)"),
     bug(
         "minimal",
         "unblended",
@@ -763,6 +777,13 @@ pub const BUGS: &[Bug] = &[
         "reads",
         "s2_secondary_i & (area != {AB{1'b0}})",
         "(area != {AB{1'b0}})",
+    ),
+    bug_in(
+        "paper",
+        "hybrid_back",
+        "reads",
+        ".slot_primary_i(slot_primary), .slot_secondary_i(slot_secondary)",
+        ".slot_primary_i(slot_primary), .slot_secondary_i(slot_secondary | slot_primary)",
     ),
     bug(
         "mono",

@@ -75,9 +75,34 @@ pub enum Clocks {
     Ignore,
 }
 
+/// What a run that proved everything anew took.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Whole {
+    /// Seconds on the clock.
+    pub seconds: f64,
+    /// Provers at a time.
+    pub cores: usize,
+}
+
+impl Whole {
+    /// Seconds that it may take.
+    pub const LIMIT: f64 = 20.0 * 60.0;
+
+    /// That it took too long, if it did.
+    pub fn fault(self) -> Option<String> {
+        let Whole { seconds, cores } = self;
+        let limit = Whole::LIMIT;
+        let slow =
+            || format!("everything: {seconds:.0} s with {cores} provers, at most {limit:.0}");
+        (seconds > limit).then(slow)
+    }
+}
+
 /// Everything that was proved.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
+    /// What all properties took, proved in one run.
+    pub whole: Option<Whole>,
     /// Properties, by module and build.
     pub proofs: Vec<Proved>,
     /// Netlists, by target and configuration.
@@ -97,7 +122,8 @@ impl Record {
     /// Writes it, an entry a line, so that a change shows as such.
     pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
         let text = format!(
-            "{{\n\"proofs\": [\n{}\n],\n\"netlists\": [\n{}\n]\n}}\n",
+            "{{\n\"whole\": {},\n\"proofs\": [\n{}\n],\n\"netlists\": [\n{}\n]\n}}\n",
+            serde_json::to_string(&self.whole).unwrap_or_default(),
             lines(&self.proofs),
             lines(&self.netlists)
         );
@@ -176,6 +202,13 @@ impl Record {
         text
     }
 
+    /// What a whole run takes.
+    pub fn time(&self) -> String {
+        let Some(Whole { seconds, cores }) = self.whole else { return "\nNot measured.\n".into() };
+        let minutes = seconds / 60.0;
+        format!("\nEverything, proved anew, took {minutes:.1} minutes with {cores} provers at a time.\n")
+    }
+
     /// The table of netlists.
     pub fn netlist_table(&self) -> String {
         let mut text = String::from(
@@ -225,7 +258,8 @@ mod tests {
 
     #[test]
     fn what_is_proved_for_less_is_told() {
-        let record = Record { proofs: vec![proved(Verdict::Bounded(10))], netlists: Vec::new() };
+        let proofs = vec![proved(Verdict::Bounded(10))];
+        let record = Record { proofs, ..Record::default() };
         let faults = |verdict, clocks| record.faults(&[proved(verdict)], clocks);
         for good in [Verdict::Bounded(10), Verdict::Bounded(11), Verdict::Induction(1)] {
             assert_eq!(faults(good, Clocks::Count), [""; 0]);
@@ -237,5 +271,13 @@ mod tests {
         let other = Proved { build: "paper".into(), ..proved(Verdict::Induction(1)) };
         let unknown = format!("stage (paper): not in {FILE}");
         assert_eq!(record.faults(&[other], Clocks::Ignore), [unknown]);
+    }
+
+    #[test]
+    fn a_run_that_takes_too_long_is_told() {
+        let fault = |seconds| Whole { seconds, cores: 2 }.fault();
+        assert_eq!(fault(Whole::LIMIT), None);
+        let told = "everything: 1201 s with 2 provers, at most 1200";
+        assert_eq!(fault(1201.0).as_deref(), Some(told));
     }
 }
