@@ -463,8 +463,7 @@ module sam_hybrid #(
         p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
         // A setup is taken with its LOAD, and with nothing else.
         p_setup: assert (f_setup == (f_take & beat_op_i == `SAM_OP_LOAD));
-        // Edges are taken by a LOAD that was taken, and by each: before its edges is none but what is inside, one or,
-        // with 8 slots or more, two.
+        // Edges are taken once for each LOAD, after it; at most one LOAD, with 8 slots or more two, waits for its edges.
         p_edges: assert (f_loads <= (SLOTS < 8 ? 1 : 2));
         // Where all is ready a beat waits no longer than all slots take to leave, and 8 clocks, whatever the
         // setups were: nothing hangs.

@@ -57,6 +57,19 @@ pub(crate) fn read(rtl: &Path, module: &str) -> Result<Sources, Unreadable> {
     Ok(sources)
 }
 
+/// What is hardware of it: without the properties, which provers alone read.
+pub(crate) fn hardware(mut sources: Sources) -> Sources {
+    for content in sources.values_mut() {
+        let text = String::from_utf8_lossy(content);
+        let parts = text.split_once("`ifdef FORMAL\n");
+        let parts = parts.and_then(|(before, rest)| Some((before, rest.split_once("`endif\n")?.1)));
+        if let Some((before, after)) = parts {
+            *content = [before, after].concat().into_bytes();
+        }
+    }
+    sources
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -78,5 +91,14 @@ mod tests {
         let sources = read(folder.path(), "top").map_err(|e| e.source).unwrap();
         let names: Vec<&str> = sources.keys().map(String::as_str).collect();
         assert_eq!(names, ["formats.vh", "leaf.v", "rom.v", "table.mem", "top.v", "unit.v"]);
+    }
+
+    #[test]
+    fn properties_are_no_hardware() {
+        let only = |text: &str| Sources::from([("unit.v".to_owned(), text.as_bytes().to_vec())]);
+        let with = "module unit;\n`ifdef FORMAL\nassert (1);\n`endif\nendmodule\n";
+        assert_eq!(hardware(only(with)), only("module unit;\nendmodule\n"));
+        let without = "`ifdef OTHER\n`endif\n";
+        assert_eq!(hardware(only(without)), only(without));
     }
 }

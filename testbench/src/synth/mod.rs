@@ -134,6 +134,7 @@ impl Synthesiser {
 
     fn sources(&self, interface: &Interface) -> Result<Sources, SynthError> {
         sources::read(&self.rtl, interface.module)
+            .map(sources::hardware)
             .map_err(|e| SynthError::Read { path: e.path, source: e.source })
     }
 }
