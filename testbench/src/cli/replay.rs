@@ -10,7 +10,7 @@ use crate::verification::Replay;
 use rayon::prelude::*;
 use wheatstone_golden::picture::write_file;
 
-/// Random beats of a pack: what a netlist of the largest system takes in a minute.
+/// Random beats of a pack: what the netlist of a system takes in a minute or two.
 const BEATS: u64 = 1_000;
 
 #[derive(Debug, Args)]
