@@ -29,7 +29,7 @@ pub(super) struct SynthArgs {
     #[arg(long, conflicts_with_all = ["record", "parameters"])]
     check: bool,
     /// Write what was measured into the record; `wheatstone generate` then renews the tables
-    #[arg(long, conflicts_with = "parameters")]
+    #[arg(long, conflicts_with_all = ["parameters", "rtl"])]
     record: bool,
     /// Folder of the Verilog [default: rtl of this workspace]
     #[arg(long, value_name = "DIR")]

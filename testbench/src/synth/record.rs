@@ -85,27 +85,27 @@ pub fn thousands(value: f64) -> String {
 
 /// The record could not be read.
 #[derive(Debug, Error)]
-#[error("{}: {why}; write it with: {command}", .path.display())]
+#[error("{}: {why}; {remedy}", .path.display())]
 pub struct RecordError {
     /// The file.
     pub path: PathBuf,
     /// Why.
     pub why: String,
-    /// The command that writes it.
-    pub command: &'static str,
+    /// What to do.
+    pub remedy: &'static str,
 }
 
-/// Reads a committed record of a workspace, which `command` writes.
+/// Reads a committed record of a workspace; `remedy` says what to do where it cannot be read.
 pub fn read_record<T: DeserializeOwned>(
     workspace: &Path,
     file: &str,
-    command: &'static str,
+    remedy: &'static str,
 ) -> Result<T, RecordError> {
     let path = workspace.join(file);
     let parsed = std::fs::read(&path)
         .map_err(|error| error.to_string())
         .and_then(|text| serde_json::from_slice(&text).map_err(|error| error.to_string()));
-    parsed.map_err(|why| RecordError { path, why, command })
+    parsed.map_err(|why| RecordError { path, why, remedy })
 }
 
 /// All figures, ordered by target, configuration and technology.
@@ -115,7 +115,8 @@ pub struct Record(Vec<Entry>);
 impl Record {
     /// The record of a workspace.
     pub fn read(workspace: &Path) -> Result<Record, RecordError> {
-        read_record(workspace, FILE, "wheatstone synth --tech gates,ice40,ecp5 --record")
+        let remedy = "write it with: wheatstone synth --tech gates,ice40,ecp5 --record";
+        read_record(workspace, FILE, remedy)
     }
 
     /// Writes it, an entry a line, so that a change shows as such.
