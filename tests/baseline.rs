@@ -30,7 +30,7 @@ const HELD: [(&str, Limits, f64); 2] =
 /// The limit of a triangle.
 fn limit(limits: &Limits, turned: u32, size: u32) -> f64 {
     let (_, of_turned) = limits.iter().find(|(t, _)| *t == turned).expect("a limit");
-    LARGE.iter().zip(of_turned).filter(|(from, _)| size >= **from).last().map_or(1.0, |(_, l)| *l)
+    LARGE.iter().zip(of_turned).rfind(|(from, _)| size >= **from).map_or(1.0, |(_, l)| *l)
 }
 
 /// The side of the triangles of a row.

@@ -128,23 +128,16 @@ pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
 /// Tells which scores are too low, or worse than those on record, and gives the exit status.
 fn verdict(found: &[Found], recorded: Option<&Scores>) -> u8 {
     let scores: Vec<Score> = found.iter().map(|found| found.score.clone()).collect();
-    let status = match recorded {
-        Some(recorded) => checked(&recorded.faults(&scores), FILE),
+    let is_good = match recorded {
+        Some(recorded) => checked(&recorded.faults(&scores), FILE) == OK,
         None => {
-            let low: Vec<String> = scores.iter().filter_map(Score::low).collect();
-            low.iter().for_each(|low| say!("{low}"));
-            if low.is_empty() {
-                OK
-            } else {
-                MISMATCH
-            }
+            scores.iter().filter_map(Score::low).for_each(|low| say!("{low}"));
+            scores.iter().all(Score::passes)
         }
     };
-    let is_stale = found.iter().any(|found| !found.stale.is_empty());
-    if is_stale {
-        MISMATCH
-    } else {
-        status
+    match is_good && found.iter().all(|found| found.stale.is_empty()) {
+        true => OK,
+        false => MISMATCH,
     }
 }
 

@@ -54,7 +54,7 @@ impl Entry {
             (target.name(), *config, *tech) == (&self.target, &self.config, self.tech)
         };
         let (.., floor) = FLOORS.iter().find(is_it)?;
-        let is_below = self.figures.get(&Figure::Fmax).map_or(true, |clock| clock < floor);
+        let is_below = self.figures.get(&Figure::Fmax).is_none_or(|clock| clock < floor);
         let shown = self.shown(Figure::Fmax);
         is_below.then(|| format!("{}: MHz {shown}, at least {floor} are asked for", self.name()))
     }
