@@ -5,27 +5,66 @@
 
 A pack is a folder that `wheatstone vectors` wrote; docs/vectors.md says what is in it. Every input beat
 is offered until it is taken, every output beat is compared in every bit, on clocks chosen at random.
-Prints the CRC of every output stream and PASS or FAIL; exit status 0 if all packs pass, 1 if not.
+Prints the CRC of every output stream and PASS or FAIL; exit status 0 if all packs pass, 1 if not, 2 if a
+pack or the Verilog cannot be read, 3 if a tool is missing.
 """
 
 import argparse
 import json
 import os
 import random
+import shutil
+import subprocess
 import sys
 import tempfile
 import zlib
 from pathlib import Path
 
-import cocotb
-from cocotb.clock import Clock
-from cocotb.triggers import FallingEdge, RisingEdge
-from cocotb_tools.runner import get_results, get_runner
+BAD_INPUT = 2  # exit status
+MISSING_TOOL = 3  # exit status
+
+
+def stop(status, why):
+    """Ends the program with a line that says why."""
+    print(f"error: {why}", file=sys.stderr)
+    sys.exit(status)
+
+
+try:
+    import cocotb
+    from cocotb.clock import Clock
+    from cocotb.triggers import FallingEdge, RisingEdge
+    from cocotb_tools.runner import get_results, get_runner
+except ImportError as error:
+    stop(MISSING_TOOL, f"{error}; run scripts/setup, then this with target/wheatstone/python/bin/python")
 
 QUIET = 64  # clocks after the last beat, on which none may come
 HANGS = 2_000  # clocks without a beat
 SHOWN = 10  # differences
 MANY = 1_000  # differences: the module may never end
+
+
+def need(entries, *keys):
+    """Looks for keys in all entries of a list."""
+    for entry in entries:
+        for key in keys:
+            entry[key]
+
+
+def read(pack):
+    """The manifest of a pack that has everything which is needed here."""
+    try:
+        manifest = json.loads((pack / "manifest.json").read_text())
+        need([manifest], "module", "seed")
+        need(manifest["parameters"] + manifest["statics"] + manifest["flags"], "name", "value")
+        need(manifest["ports"], "name", "direction", "bytes", "crc32")
+        for port in manifest["ports"]:
+            need(port["fields"], "name", "lsb", "bits")
+            (pack / port["bin"]["file"]).read_bytes()
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        why = f"manifest.json has no {error}" if isinstance(error, KeyError) else error
+        stop(BAD_INPUT, f"{pack}: {why}; write packs with: wheatstone vectors TARGET --out DIR")
+    return manifest
 
 
 class Stream:
@@ -119,7 +158,7 @@ async def run(dut, streams, may):
 async def replay(dut):
     """Replays the pack that the environment names."""
     pack, stall = Path(os.environ["PACK"]), int(os.environ["STALL"])
-    manifest = json.loads((pack / "manifest.json").read_text())
+    manifest = read(pack)
     random.seed(manifest["seed"])
     streams = [Stream(dut, pack, port) for port in manifest["ports"]]
     cocotb.start_soon(Clock(dut.clk_i, 10, "ns").start())
@@ -141,22 +180,24 @@ async def replay(dut):
     assert not faults
 
 
-def simulate(pack, rtl, stall):
+def simulate(pack, manifest, sources, stall):
     """Compiles the pack's module and runs the test above in it; returns whether it passed."""
-    manifest = json.loads((pack / "manifest.json").read_text())
     with tempfile.TemporaryDirectory() as build:
         common = {"hdl_toplevel": manifest["module"], "build_dir": build}
         log = Path(build) / "log"
         runner = get_runner("icarus")
-        runner.build(
-            sources=sorted(rtl.glob("*.v")),
-            includes=[pack],
-            parameters={p["name"]: p["value"] for p in manifest["parameters"]},
-            build_args=["-g2005"],
-            timescale=("1ns", "1ps"),
-            log_file=log,
-            **common,
-        )
+        try:
+            runner.build(
+                sources=sources,
+                includes=[pack],
+                parameters={p["name"]: p["value"] for p in manifest["parameters"]},
+                build_args=["-g2005"],
+                timescale=("1ns", "1ps"),
+                log_file=log,
+                **common,
+            )
+        except subprocess.CalledProcessError:
+            stop(BAD_INPUT, f"iverilog refuses {manifest['module']}:\n{log.read_text().strip()}")
         results = runner.test(
             test_module="replay",
             results_xml=str(Path(build) / "results.xml"),
@@ -184,7 +225,13 @@ def main():
     parser.add_argument("--rtl", type=Path, default=Path("rtl"), help="folder of the Verilog")
     parser.add_argument("--stall", type=int, default=1, help="0: offer and take on every clock")
     args = parser.parse_args()
-    passed = [simulate(pack.resolve(), args.rtl.resolve(), args.stall) for pack in args.packs]
+    if not shutil.which("iverilog"):
+        stop(MISSING_TOOL, "iverilog is not installed; run scripts/setup")
+    sources = sorted(args.rtl.resolve().glob("*.v"))
+    if not sources:
+        stop(BAD_INPUT, f"{args.rtl}: no Verilog there; name its folder with --rtl DIR")
+    packs = [(pack.resolve(), read(pack)) for pack in args.packs]
+    passed = [simulate(pack, manifest, sources, args.stall) for pack, manifest in packs]
     sys.exit(0 if all(passed) else 1)
 
 

@@ -1,5 +1,6 @@
 //! Mutation: the regression of a small unit notices its mutants, what is proved equivalent is, and a
-//! regression that does little scores low. All units: `wheatstone mutate`.
+//! regression that does little scores low; the record is whole and its scores are high. All units:
+//! `wheatstone mutate`.
 
 use std::path::PathBuf;
 use wheatstone_golden::config::Config;
@@ -7,13 +8,20 @@ use wheatstone_golden::interface::Table;
 use wheatstone_golden::targets::Target;
 use wheatstone_testbench::mutation::record::{Reviews, Score, Scores};
 use wheatstone_testbench::mutation::{
-    regression, Fate, Mutated, MutationError, Run, Verdict, COUNT, SEED,
+    golden, is_usual, regression, usual_config, Fate, Mutated, MutationError, Run, Verdict, COUNT,
+    SEED,
 };
 use wheatstone_testbench::synth::Synthesiser;
 use wheatstone_tests::*;
 
 const TARGET: Target = Target::Display;
 const CONFIG: Config = Config::DEFAULT;
+/// Not among the usual targets: a system whose score may be low.
+const MAY_BE_LOW: Target = Target::Mono;
+
+fn scores() -> Scores {
+    Scores::read(workspace()).unwrap_or_else(|error| panic!("{error}"))
+}
 
 fn mutated(rtl: PathBuf) -> Mutated {
     let cache = workspace().join(Synthesiser::CACHE);
@@ -30,13 +38,41 @@ fn the_regression_notices_mutants_and_as_many_as_recorded() {
     let score = Score::new(TARGET, "default", SEED, &tested);
     assert!(score.passes() && score.mutants() == COUNT as usize, "{score:?}");
     assert_eq!(reviews.stale(TARGET, "default", &tested), [] as [&_; 0]);
-    let scores = Scores::read(workspace()).unwrap_or_else(|error| panic!("{error}"));
-    assert!(scores.all().contains(&score), "wheatstone mutate --record, then generate: {score:?}");
+    assert!(
+        scores().all().contains(&score),
+        "wheatstone mutate --record, then generate: {score:?}"
+    );
     // The proof and the simulation agree on those that the simulation killed.
     let killed = tested.iter().filter(|t| matches!(t.fate, Fate::Killed(_)));
     for tested in killed.step_by(12) {
         let verdict = mutated.compare(&tested.mutant).expect("ABC runs");
         assert_eq!(verdict, Verdict::Different, "{}", tested.mutant);
+    }
+}
+
+#[test]
+fn the_record_has_every_usual_target_and_every_golden_unit() {
+    let usual = Target::ALL.into_iter().filter(|t| is_usual(*t)).map(|t| (t, usual_config(t)));
+    let units =
+        Target::ALL.into_iter().filter(|t| golden::is_unit(*t)).map(|t| (t, golden::CONFIG));
+    for (target, config) in usual.chain(units) {
+        let is_it = |score: &&Score| score.target == target.name() && score.config == config;
+        let rows = scores().all().iter().filter(is_it).count();
+        assert_eq!(
+            rows,
+            1,
+            "{} {config}: run wheatstone mutate --record, with --golden or without",
+            target.name()
+        );
+    }
+}
+
+#[test]
+fn the_recorded_scores_are_high_and_of_many_mutants() {
+    for score in scores().all() {
+        let is_golden = score.config == golden::CONFIG;
+        assert!(is_golden || score.mutants() >= COUNT as usize, "{score:?}: so few mutants");
+        assert!(score.passes() || score.target == MAY_BE_LOW.name(), "{:?}", score.low());
     }
 }
 

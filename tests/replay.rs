@@ -1,12 +1,14 @@
 //! Vector packs replay in cocotb and on gate-level netlists, equal in every bit, and catch bugs there.
 
 use std::path::Path;
+use std::process::Command;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
 use wheatstone_testbench::cases;
 use wheatstone_testbench::pack::{self, Checked};
 use wheatstone_testbench::replay::{Replayed, Replayer, Way};
 use wheatstone_testbench::synth::Synthesiser;
+use wheatstone_testbench::tools::COCOTB;
 use wheatstone_tests::*;
 
 /// A pack of random beats in a folder.
@@ -71,6 +73,43 @@ fn every_way_says_fail_on_wrong_verilog() {
             let Replayed { passed, said, .. } = replay(&pack, copy.path(), way);
             assert!(!passed && said.contains("FAIL ("), "{file} {}:\n{said}", way.name());
         }
+    }
+}
+
+/// What the script says of a command line, and its exit status; with Python's own packages alone, or all.
+fn script(own: bool, arguments: &[&Path]) -> (Option<i32>, String) {
+    let mut python = Command::new(COCOTB.find().expect("cocotb").program.with_file_name("python3"));
+    // Without site packages, among which cocotb is.
+    python.args(own.then_some("-S")).arg(workspace().join("scripts/replay.py")).args(arguments);
+    let output = python.current_dir(workspace()).output().expect("Python");
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.code(), String::from_utf8_lossy(&text).trim().to_owned())
+}
+
+#[test]
+fn the_script_tells_what_it_cannot_replay_in_a_line() {
+    let folder = folder();
+    let pack = pack(Target::Blend, &Config::PAPER, 20, folder.path()).folder;
+    assert_eq!(script(false, &[&pack]).0, Some(0));
+    let told = |own, status, what: &str, arguments: &[&Path]| {
+        let (found, text) = script(own, arguments);
+        assert_eq!(found, Some(status), "{text}");
+        assert!(text.starts_with("error: ") && text.lines().count() == 1, "{text}");
+        assert!(text.contains(what), "no “{what}” in: {text}");
+    };
+    told(true, 3, "run scripts/setup", &[&pack]);
+    told(false, 2, "no Verilog there", &[&pack, Path::new("--rtl"), folder.path()]);
+    told(false, 2, "wheatstone vectors", &[&folder.path().join("none")]);
+    let manifest = pack.join(pack::MANIFEST);
+    let sound = std::fs::read_to_string(&manifest).expect("a manifest");
+    for (find, replace, what) in [
+        ("\"module\"", "\"modul\"", "has no 'module'"),
+        ("\"lsb\"", "\"lob\"", "has no 'lsb'"),
+        (".bin", ".ban", "No such file"),
+        ("{", "[", "delimiter"),
+    ] {
+        std::fs::write(&manifest, sound.replacen(find, replace, 1)).expect("written");
+        told(false, 2, what, &[&pack]);
     }
 }
 

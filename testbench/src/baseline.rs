@@ -303,7 +303,7 @@ pub struct Recorded(pub BTreeMap<String, Rows>);
 impl Recorded {
     /// The rows of a workspace.
     pub fn read(workspace: &Path) -> Result<Recorded, RecordError> {
-        read_record(workspace, FILE, "wheatstone baseline --record")
+        read_record(workspace, FILE, "write it with: wheatstone baseline --record")
     }
 
     /// The rows of a configuration, none if it has none.

@@ -38,6 +38,13 @@ pub struct Replay {
     pub beats: u64,
 }
 
+impl Replay {
+    /// Whether both are of the same pack in the same way.
+    fn is_same(&self, other: &Replay) -> bool {
+        (&self.target, &self.config, &self.way) == (&other.target, &other.config, &other.way)
+    }
+}
+
 /// The record could not be read.
 #[derive(Debug, Error)]
 #[error("{}: {why}; write it with: wheatstone cover --record && wheatstone replay --record", .path.display())]
@@ -68,12 +75,57 @@ impl Record {
         self.crossing = cover::crossing(bins);
     }
 
+    /// Everything that is covered in parts, by name.
+    fn shares(&self) -> BTreeMap<String, Share> {
+        let of_file = |(name, file): (&String, &FileCoverage)| {
+            [(format!("{name} lines"), file.lines), (format!("{name} toggles"), file.toggles)]
+        };
+        let of_row = |(label, shares): &(String, Vec<(usize, usize)>)| {
+            let share = |(division, &(covered, points)): (&str, &(usize, usize))| {
+                (format!("bins of {label}, {division}"), Share { points, covered, waived: 0 })
+            };
+            cover::divisions().into_iter().zip(shares).map(share).collect::<Vec<_>>()
+        };
+        let files = self.coverage.iter().flat_map(of_file);
+        files.chain(self.crossing.iter().flat_map(of_row)).collect()
+    }
+
+    /// Where less is covered now, or more waived, than here, a line each; also what is only in one of both.
+    pub fn cover_faults(&self, now: &Record) -> Vec<String> {
+        let [recorded, found] = [self, now].map(Record::shares);
+        let names: BTreeSet<&String> = recorded.keys().chain(found.keys()).collect();
+        let shown = |share: &Share| {
+            format!("{} of {} covered, {} waived", share.covered, share.points, share.waived)
+        };
+        let tell = |name: &String| {
+            let what = match (recorded.get(name), found.get(name)) {
+                (Some(old), Some(new)) if !new.is_worse(old) => return None,
+                (Some(old), Some(new)) => format!("{}, recorded {}", shown(new), shown(old)),
+                (None, _) => format!("not in {FILE}"),
+                (_, None) => format!("only in {FILE}"),
+            };
+            Some(format!("{name}: {what}"))
+        };
+        names.into_iter().filter_map(tell).collect()
+    }
+
+    /// Replays that are not equal, not here, or here with another number of beats, a line each.
+    pub fn replay_faults(&self, replays: impl Iterator<Item = (Replay, bool)>) -> Vec<String> {
+        let tell = |(new, passed): (Replay, bool)| {
+            let what = match self.replays.iter().find(|old| old.is_same(&new)) {
+                _ if !passed => "not equal".into(),
+                None => format!("not in {FILE}"),
+                Some(old) if old.beats == new.beats => return None,
+                Some(old) => format!("{} beats, recorded {}", new.beats, old.beats),
+            };
+            Some(format!("{} {} {}: {what}", new.target, new.config, new.way))
+        };
+        replays.filter_map(tell).collect()
+    }
+
     /// Takes over a replay in the place of an older one; one that was not equal only removes that.
     pub fn replay(&mut self, replay: Replay, passed: bool) {
-        let same = |r: &Replay| {
-            (&r.target, &r.config, &r.way) == (&replay.target, &replay.config, &replay.way)
-        };
-        self.replays.retain(|old| !same(old));
+        self.replays.retain(|old| !old.is_same(&replay));
         if passed {
             self.replays.insert(replay);
         }
@@ -143,12 +195,13 @@ impl Record {
 mod tests {
     use super::*;
 
+    fn replay(beats: u64) -> Replay {
+        let [target, config, way] = ["filter", "paper", "gates"].map(String::from);
+        Replay { target, config, way, beats }
+    }
+
     #[test]
     fn a_replay_takes_the_place_of_an_older_one() {
-        let replay = |beats| {
-            let [target, config, way] = ["filter", "paper", "gates"].map(String::from);
-            Replay { target, config, way, beats }
-        };
         let mut record = Record::default();
         record.replay(replay(7), true);
         record.replay(replay(1250), true);
@@ -156,5 +209,48 @@ mod tests {
         assert!(record.replay_table().contains(row), "{}", record.replay_table());
         record.replay(replay(8), false);
         assert!(record.replays.is_empty());
+    }
+
+    #[test]
+    fn what_no_longer_replays_as_recorded_is_told() {
+        let mut record = Record::default();
+        record.replay(replay(7), true);
+        let faults = |replay, passed| record.replay_faults([(replay, passed)].into_iter());
+        assert_eq!(faults(replay(7), true), [""; 0]);
+        assert_eq!(faults(replay(7), false), ["filter paper gates: not equal"]);
+        assert_eq!(faults(replay(8), true), ["filter paper gates: 8 beats, recorded 7"]);
+        let other = Replay { way: "icarus".into(), ..replay(7) };
+        assert_eq!(faults(other, true), [format!("filter paper icarus: not in {FILE}")]);
+    }
+
+    #[test]
+    fn what_is_covered_less_than_recorded_is_told() {
+        let all = Share { points: 9, covered: 8, waived: 1 };
+        let of = |toggles, hit| {
+            let file = FileCoverage { lines: Share::default(), toggles };
+            let crossing = vec![("MONO_LEFT".to_owned(), vec![(2, 2), (2, 2), (hit, 2)])];
+            Record {
+                coverage: BTreeMap::from([("a.v".to_owned(), file)]),
+                crossing,
+                ..Record::default()
+            }
+        };
+        let record = of(all, 1);
+        let more = Share { points: 20, covered: 19, waived: 1 };
+        for (toggles, hit) in [(all, 1), (more, 2), (Share { covered: 9, waived: 0, ..all }, 1)] {
+            assert_eq!(record.cover_faults(&of(toggles, hit)), [""; 0]);
+        }
+        let faults = |toggles, hit| record.cover_faults(&of(toggles, hit));
+        let waived = Share { points: 10, waived: 2, ..all };
+        let told = "a.v toggles: 8 of 10 covered, 2 waived, recorded 8 of 9 covered, 1 waived";
+        assert_eq!(faults(waived, 1), [told]);
+        assert_eq!(faults(Share { points: 10, ..all }, 1).len(), 1, "one is missing");
+        assert_eq!(faults(Share { points: 8, covered: 7, ..all }, 1).len(), 1, "one is gone");
+        let told = "bins of MONO_LEFT, three-term: 0 of 2 covered, 0 waived, recorded 1 of 2 covered, 0 waived";
+        assert_eq!(faults(all, 0), [told]);
+        let only = |what: &str| ["lines", "toggles"].map(|k| format!("a.v {k}: {what} in {FILE}"));
+        let empty = Record { coverage: BTreeMap::new(), ..record.clone() };
+        assert_eq!(empty.cover_faults(&record), only("not"));
+        assert_eq!(record.cover_faults(&empty), only("only"));
     }
 }

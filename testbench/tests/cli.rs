@@ -456,6 +456,55 @@ fn a_unit_takes_no_scene() {
     }
 }
 
+/// A record is of this Verilog and of the measurement that everybody repeats.
+#[test]
+fn a_record_is_of_nothing_unusual() {
+    // Of its own: what is not refused writes the record.
+    let workspace = Workspace::new();
+    for (command, options) in [
+        ("synth --record", &["--rtl r", "--param slots=4"][..]),
+        ("baseline --record", &["--rtl r", "--scene ties", "--size 64x48"]),
+        ("mutate --record", &["--rtl r", "--count 5", "--seed 2", "--beats 10"]),
+        ("cover --record", &["--rtl r", "--seed 2", "--beats 10", "filter"]),
+        ("replay --record", &["--rtl r", "--seed 2", "--beats 10", "--packs p"]),
+        ("synth --check", &["--record", "--param slots=4"]),
+        ("baseline --check", &["--record", "--scene ties", "--size 64x48"]),
+        ("mutate --check", &["--record", "--count 5", "--seed 2", "--beats 10"]),
+        ("cover --check", &["--record", "--seed 2", "--beats 10", "filter"]),
+        ("replay --check", &["--record", "--seed 2", "--beats 10", "--packs p"]),
+    ] {
+        for option in options {
+            let output = run(workspace.path(), &format!("{command} {option}"));
+            let text = said(&output);
+            assert_eq!(output.status.code(), Some(2), "{command} {option}: {text}");
+            assert!(text.contains("cannot be used with"), "{command} {option}: {text}");
+        }
+    }
+}
+
+#[test]
+fn a_bad_scene_is_told_before_models_are_built() {
+    let workspace = Workspace::new();
+    let output = run(workspace.path(), "baseline --scene nosuch");
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(text.starts_with("error: scene nosuch: "), "{text}");
+    assert!(!text.contains("building"), "{text}");
+}
+
+#[test]
+fn a_list_of_reviewed_mutants_that_cannot_be_read_is_told_as_what_it_is() {
+    let workspace = Workspace::new();
+    fs::create_dir(workspace.path().join("synth")).expect("a folder");
+    let list = workspace.path().join("synth/mutants_reviewed.json");
+    fs::write(&list, "[{}]").expect("written");
+    let output = run(workspace.path(), "mutate display");
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(text.contains("missing field `target`") && text.contains("written by hand"), "{text}");
+    assert!(!text.contains("write it with"), "{text}");
+}
+
 #[test]
 fn a_closed_pipe_is_no_panic() {
     let folder = folder(&[]);
@@ -496,6 +545,25 @@ fn a_missing_simulator_is_named_with_its_remedy() {
     let text = said(&output);
     assert_eq!(output.status.code(), Some(3), "{text}");
     assert!(text.contains("verilator") && text.contains("apt"), "{text}");
+}
+
+/// Golden models have mutants without a simulator: it is not what is missing.
+#[test]
+fn mutants_of_golden_models_need_no_simulator() {
+    let workspace = Workspace::new();
+    fs::create_dir(workspace.path().join("synth")).expect("a folder");
+    fs::write(workspace.path().join("synth/mutants_reviewed.json"), "[]").expect("written");
+    let output = program(workspace.path())
+        .args(["mutate", "--golden", "filter"])
+        .env("PATH", workspace.path())
+        .output()
+        .expect("the program runs");
+    let text = said(&output);
+    // Whether cargo mutants is installed or not: there is no golden model here.
+    let is_told = [(3, "cargo-mutants"), (2, "there is no golden/src/pipeline/filter.rs")];
+    let is_it =
+        |(status, what): (i32, &str)| output.status.code() == Some(status) && text.contains(what);
+    assert!(is_told.into_iter().any(is_it) && !text.contains("verilator"), "{text}");
 }
 
 /// The pictures of a run belong together: none is left of one that showed something else.

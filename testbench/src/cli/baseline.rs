@@ -21,7 +21,7 @@ pub(super) struct BaselineArgs {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write the rows into the record; `wheatstone generate` then renews the tables
-    #[arg(long, conflicts_with_all = ["scene", "size"])]
+    #[arg(long, conflicts_with_all = ["scene", "size", "rtl"])]
     record: bool,
     /// Compare with the committed record: exit status 1 if a row differs or takes longer than two passes
     #[arg(long, conflicts_with_all = ["record", "scene", "size"])]
@@ -33,6 +33,8 @@ pub(super) struct BaselineArgs {
 
 pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
     let settings = Settings::new::<&str>(&args.config, &[])?;
+    // First, as models take a while to build.
+    let scenes = scenes(args)?;
     let builder = builder(is_terminal())?;
     let pipelines = Baseline::new(&builder, &rtl_folder(&args.rtl)?, &settings.config)?;
     let spinner = Spinner::new();
@@ -49,12 +51,8 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
             rows.sizes.push((turned, SIZES.map(row).into_iter().collect::<Result<_, _>>()?));
         }
     }
-    let names: Vec<&str> = match &args.scene {
-        Some(name) => vec![name],
-        None => builtin_names().collect(),
-    };
-    for name in names {
-        rows.scenes.push(measure(name, &scene::open(name, args.size, None)?)?);
+    for (name, scene) in &scenes {
+        rows.scenes.push(measure(name, scene)?);
     }
     drop(spinner);
     let areas = match &workspace() {
@@ -80,6 +78,16 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
         (_, true) => check(&super::root()?, &args.config, &rows),
         _ => Ok(OK),
     }
+}
+
+/// The scene that was named, or all that are built in, with their names.
+fn scenes(args: &BaselineArgs) -> Result<Vec<(&str, Scene)>, SceneError> {
+    let names: Vec<&str> = match &args.scene {
+        Some(name) => vec![name],
+        None => builtin_names().collect(),
+    };
+    let open = |name| Ok((name, scene::open(name, args.size, None)?));
+    names.into_iter().map(open).collect()
 }
 
 /// Writes rows into the record of the workspace.

@@ -24,8 +24,12 @@ pub(super) struct CoverArgs {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write what is covered into the record; `wheatstone generate` then renews the tables
-    #[arg(long, conflicts_with = "targets")]
+    #[arg(long, conflicts_with_all = ["targets", "beats", "seed", "rtl"])]
     record: bool,
+    /// Compare with the committed record: exit status 1 if a file has fewer lines or bits covered, or more that
+    /// are waived, if fewer bins are hit, or if something is not recorded or no longer there
+    #[arg(long, conflicts_with_all = ["record", "targets", "beats", "seed"])]
+    check: bool,
     /// Write every Verilog file with its counts to this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -37,6 +41,7 @@ pub(super) struct CoverArgs {
 pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
     let rtl = rtl_folder(&args.rtl)?;
     let waivers = waivers()?;
+    let recorded = args.check.then(verification_record).transpose()?;
     let plans = plans(args, &rtl)?;
     let spinner = Spinner::new();
     let (counts, bins) = cover::measure(builder(is_terminal())?, &plans, &|event| {
@@ -63,7 +68,11 @@ pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
     if let (true, Some(bins)) = (args.record, bins) {
         update_record(|record| record.cover(&report, bins))?;
     }
-    Ok(verdict(&report, bins))
+    let status = verdict(&report, bins);
+    let (Some(recorded), Some(bins)) = (recorded, bins) else { return Ok(status) };
+    let mut now = Record::default();
+    now.cover(&report, bins);
+    Ok(status.max(checked(&recorded.cover_faults(&now), verification::FILE)))
 }
 
 /// The list of the workspace; without one nothing is waived.

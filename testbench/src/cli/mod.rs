@@ -128,7 +128,7 @@ enum Command {
     /// Show which tools are found and how to install what is missing
     Doctor(info::DoctorArgs),
     /// Write rtl/sam_formats.vh and the tables of docs/ and README.md anew from the golden model's
-    /// definitions and the record of synth
+    /// definitions and the records of synth, baseline, prove, mutate, cover and replay
     Generate(generate::GenerateArgs),
 }
 
@@ -250,7 +250,11 @@ impl Failure {
             Failure::Tool(_)
             | Failure::Synth(SynthError::Tool(_))
             | Failure::Replay(ReplayError::Tool(_) | ReplayError::Synth(SynthError::Tool(_)))
-            | Failure::Mutation(MutationError::Synth(SynthError::Tool(_)))
+            | Failure::Mutation(
+                MutationError::Tool(_)
+                | MutationError::Synth(SynthError::Tool(_))
+                | MutationError::Regression(RegressionError::Build(BuildError::Tool(_))),
+            )
             | Failure::Regression(RegressionError::Build(BuildError::Tool(_)))
             | Failure::Cover(CoverError::Regression(RegressionError::Build(BuildError::Tool(_))))
             | Failure::Baseline(BaselineError::Regression(RegressionError::Build(
@@ -448,6 +452,11 @@ fn checked(faults: &[String], file: &str) -> u8 {
     faults.iter().for_each(|fault| say!("{fault}"));
     say!("if this is meant, update the record with --record in place of --check");
     MISMATCH
+}
+
+/// The record of coverage and replay.
+fn verification_record() -> Result<Record, Failure> {
+    Ok(Record::read(&root()?)?)
 }
 
 /// Changes the record of coverage and replay.

@@ -1,8 +1,10 @@
 //! `wheatstone mutate`.
 
 use super::*;
-use crate::mutation::record::{Reviews, Score, Scores, FILE, HEADINGS, LEAST_SCORE, REVIEWED_FILE};
-use crate::mutation::{golden, regression, Fate, Mutated, Tested, COUNT, SEED};
+use crate::mutation::record::{Reviews, Score, Scores, FILE, HEADINGS, REVIEWED_FILE};
+use crate::mutation::{
+    golden, is_usual, regression, usual_config, Fate, Mutated, Tested, COUNT, SEED,
+};
 use crate::synth::Synthesiser;
 use wheatstone_golden::picture::write_file;
 
@@ -38,8 +40,12 @@ pub(super) struct MutateArgs {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write the scores into the record; `wheatstone generate` then renews the table
-    #[arg(long, conflicts_with_all = ["beats", "rtl"])]
+    #[arg(long, conflicts_with_all = ["count", "seed", "beats", "rtl"])]
     record: bool,
+    /// Compare with the committed record: exit status 1 if a target is not in it, or its score is lower than
+    /// there or below 95 %
+    #[arg(long, conflicts_with_all = ["record", "count", "seed", "beats"])]
+    check: bool,
     /// Folder of the Verilog [default: rtl of this workspace]
     #[arg(long, value_name = "DIR")]
     rtl: Option<PathBuf>,
@@ -47,11 +53,9 @@ pub(super) struct MutateArgs {
 
 impl MutateArgs {
     fn targets(&self) -> Vec<Target> {
-        let large =
-            |target: &Target| matches!(target, Target::Mono | Target::Hybrid | Target::Stereo);
         let usual = |target: &Target| match self.golden {
             true => golden::is_unit(*target),
-            false => !large(target),
+            false => is_usual(*target),
         };
         match &self.targets[..] {
             [] => Target::ALL.into_iter().filter(usual).collect(),
@@ -61,11 +65,7 @@ impl MutateArgs {
 
     /// Name of the configuration of a target.
     fn config(&self, target: Target) -> &str {
-        let usual = match target {
-            _ if self.golden => golden::CONFIG,
-            Target::Coverage => "full",
-            _ => "default",
-        };
+        let usual = if self.golden { golden::CONFIG } else { usual_config(target) };
         self.config.as_deref().unwrap_or(usual)
     }
 
@@ -93,10 +93,12 @@ pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
         return Err(Failure::Input(why));
     }
     let reviews = Reviews::read(&root)?;
-    let builder = builder(is_terminal())?;
+    let scores = args.check.then(|| Scores::read(&root)).transpose()?;
+    // Golden models are tested without a simulator.
+    let builder = (!args.golden).then(|| builder(is_terminal())).transpose()?;
     let spinner = Spinner::new();
     let found = args.targets().into_iter().map(|target| {
-        let found = test(args, &root, target, &builder, &reviews)?;
+        let found = test(args, &root, target, builder.as_ref(), &reviews)?;
         let [mutants, .., score] = found.score.cells();
         spinner.tell(target.name(), &format!("{score} of {mutants} mutants"));
         if args.record {
@@ -120,8 +122,23 @@ pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
     if args.record {
         say!("{FILE}: written; now run: wheatstone generate");
     }
-    let good = found.iter().all(|found| found.score.passes() && found.stale.is_empty());
-    Ok(if good { OK } else { MISMATCH })
+    Ok(verdict(&found, scores.as_ref()))
+}
+
+/// Tells which scores are too low, or worse than those on record, and gives the exit status.
+fn verdict(found: &[Found], recorded: Option<&Scores>) -> u8 {
+    let scores: Vec<Score> = found.iter().map(|found| found.score.clone()).collect();
+    let is_good = match recorded {
+        Some(recorded) => checked(&recorded.faults(&scores), FILE) == OK,
+        None => {
+            scores.iter().filter_map(Score::low).for_each(|low| say!("{low}"));
+            scores.iter().all(Score::passes)
+        }
+    };
+    match is_good && found.iter().all(|found| found.stale.is_empty()) {
+        true => OK,
+        false => MISMATCH,
+    }
 }
 
 /// Writes a score into the record of the workspace, so that a run that is stopped loses none before it.
@@ -135,16 +152,16 @@ fn test(
     args: &MutateArgs,
     root: &Path,
     target: Target,
-    builder: &Builder,
+    builder: Option<&Builder>,
     reviews: &Reviews,
 ) -> Result<Found, Failure> {
     let label = args.label(target);
-    if args.golden {
+    let Some(builder) = builder else {
         let reason = |mutant: &str| reviews.reason(target, &label, &mutant);
         let tested = golden::test(root, target, reason)?;
         let json = serde_json::json!(tested);
         return Ok(found(args, target, reviews, tested, json));
-    }
+    };
     let config = Settings::new(args.config(target), &args.parameters)?.config;
     let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
     let choice = (args.count, args.seed);
@@ -195,9 +212,6 @@ fn print(found: &[Found]) {
         }
         for mutant in stale {
             say!("STALE {name} {mutant}: in {REVIEWED_FILE}, but no mutant left has this name");
-        }
-        if !score.passes() {
-            say!("{name}: below {:.0} %", 100.0 * LEAST_SCORE);
         }
     }
 }

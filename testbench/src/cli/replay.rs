@@ -48,8 +48,12 @@ pub(super) struct ReplayArgs {
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Write what was equal into the record; `wheatstone generate` then renews the tables
-    #[arg(long, conflicts_with = "packs")]
+    #[arg(long, conflicts_with_all = ["packs", "beats", "seed", "rtl"])]
     record: bool,
+    /// Compare with the committed record: exit status 1 if a pack is not in it, differs from it in its number of
+    /// beats, or is not equal any more
+    #[arg(long, conflicts_with_all = ["record", "packs", "beats", "seed"])]
+    check: bool,
     /// Folder of the Verilog [default: rtl of this workspace]
     #[arg(long, value_name = "DIR")]
     rtl: Option<PathBuf>,
@@ -100,6 +104,7 @@ impl Named {
 
 pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
     let rtl = rtl_folder(&args.rtl)?;
+    let recorded = args.check.then(verification_record).transpose()?;
     let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
     let made =
         tempfile::tempdir().map_err(|source| WriteError { file: std::env::temp_dir(), source })?;
@@ -145,6 +150,10 @@ pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
     for (named, way, replayed) in results.iter().filter(|(.., replayed)| !replayed.passed) {
         say!("\nMISMATCH {} {}\n{}", named.label, way.name(), replayed.said);
         status = MISMATCH;
+    }
+    if let Some(recorded) = recorded {
+        let replays = results.iter().map(|(named, way, r)| (named.replay(*way), r.passed));
+        status = status.max(checked(&recorded.replay_faults(replays), verification::FILE));
     }
     Ok(status)
 }

@@ -24,12 +24,12 @@ pub(super) struct SynthArgs {
     /// Write a JSON report
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Compare with the committed record: exit status 1 if an area has grown by more than 2 % or a
-    /// clock fallen by more than 10 %
+    /// Compare with the committed record: exit status 1 if an area differs by more than 2 %, a clock has
+    /// fallen by more than 10 % or below what is asked for, or something is not recorded
     #[arg(long, conflicts_with_all = ["record", "parameters"])]
     check: bool,
     /// Write what was measured into the record; `wheatstone generate` then renews the tables
-    #[arg(long, conflicts_with = "parameters")]
+    #[arg(long, conflicts_with_all = ["parameters", "rtl"])]
     record: bool,
     /// Folder of the Verilog [default: rtl of this workspace]
     #[arg(long, value_name = "DIR")]

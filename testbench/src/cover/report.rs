@@ -24,6 +24,11 @@ impl Share {
         self.points - self.covered - self.waived
     }
 
+    /// Whether less is covered, or more missing or waived, than there was.
+    pub fn is_worse(&self, old: &Share) -> bool {
+        self.covered < old.covered || self.waived > old.waived || self.missing() > old.missing()
+    }
+
     /// Per cent of the points that can be covered.
     pub fn percent(&self) -> f64 {
         match self.points - self.waived {

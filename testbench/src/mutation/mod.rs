@@ -35,6 +35,20 @@ pub const SEED: u64 = 1;
 /// Seed of the regression: the one that it has where no other is given.
 const REGRESSION_SEED: u64 = 1;
 
+/// Whether the Verilog of a target is tested where no target is named: large systems are not.
+pub fn is_usual(target: Target) -> bool {
+    !matches!(target, Target::Mono | Target::Hybrid | Target::Stereo)
+}
+
+/// Name of the configuration in which the Verilog of a target is tested where no other is named: there is
+/// little of coverage without samples.
+pub fn usual_config(target: Target) -> &'static str {
+    match target {
+        Target::Coverage => "full",
+        _ => "default",
+    }
+}
+
 /// A target could not be tested.
 #[derive(Debug, Error)]
 pub enum MutationError {

@@ -75,14 +75,28 @@ impl Score {
         self.share() >= LEAST_SCORE
     }
 
+    /// What is wrong where it is not.
+    pub fn low(&self) -> Option<String> {
+        let least = 100.0 * LEAST_SCORE;
+        (!self.passes()).then(|| format!("{} {}: below {least:.0} %", self.target, self.config))
+    }
+
+    /// Whether both are of the same target in the same configuration.
+    fn is_same(&self, other: &Score) -> bool {
+        (&self.target, &self.config) == (&other.target, &other.config)
+    }
+
     /// The counts and the score, as tables show them.
     pub fn cells(&self) -> [String; 6] {
         let left = self.survivors.len();
         let counts = [self.mutants(), self.killed, self.equivalent, self.reviewed, left];
         let [mutants, killed, equivalent, reviewed, survived] = counts.map(|n| n.to_string());
-        // Rounded down: 100 % is all of them.
-        let score = format!("{:.1} %", (1000.0 * self.share()).floor() / 10.0);
-        [mutants, killed, equivalent, reviewed, survived, score]
+        [mutants, killed, equivalent, reviewed, survived, self.shown()]
+    }
+
+    /// The score as tables show it, rounded down: 100 % is all of them.
+    fn shown(&self) -> String {
+        format!("{:.1} %", (1000.0 * self.share()).floor() / 10.0)
     }
 }
 
@@ -97,7 +111,7 @@ pub struct Scores(Vec<Score>);
 impl Scores {
     /// The scores of a workspace.
     pub fn read(workspace: &Path) -> Result<Scores, RecordError> {
-        read_record(workspace, FILE, "wheatstone mutate --record")
+        read_record(workspace, FILE, "write it with: wheatstone mutate --record")
     }
 
     /// Writes them, a line each.
@@ -109,13 +123,24 @@ impl Scores {
 
     /// Puts scores in the place of older ones.
     pub fn update(&mut self, scores: &[Score]) {
-        let is_new = |old: &Score| {
-            scores.iter().any(|new| (&old.target, &old.config) == (&new.target, &new.config))
-        };
-        self.0.retain(|old| !is_new(old));
+        self.0.retain(|old| !scores.iter().any(|new| new.is_same(old)));
         self.0.extend_from_slice(scores);
         let place = |score: &Score| Target::ALL.iter().position(|t| t.name() == score.target);
         self.0.sort_by_key(|score| (place(score), score.config.clone()));
+    }
+
+    /// What is lower than the score here, or than [`LEAST_SCORE`], a line each; also what is not here.
+    pub fn faults(&self, scores: &[Score]) -> Vec<String> {
+        scores.iter().flat_map(|new| self.worse(new).into_iter().chain(new.low())).collect()
+    }
+
+    fn worse(&self, new: &Score) -> Option<String> {
+        let what = format!("{} {}", new.target, new.config);
+        let Some(old) = self.0.iter().find(|old| old.is_same(new)) else {
+            return Some(format!("{what}: not in {FILE}"));
+        };
+        let tell = || format!("{what}: {}, recorded {}", new.shown(), old.shown());
+        (new.share() < old.share()).then(tell)
     }
 
     /// All of them.
@@ -166,7 +191,9 @@ pub struct Reviews(pub Vec<Review>);
 impl Reviews {
     /// Those of a workspace.
     pub fn read(workspace: &Path) -> Result<Reviews, RecordError> {
-        read_record(workspace, REVIEWED_FILE, "hand: a list of target, config, mutant and reason")
+        let remedy =
+            "it is written by hand, a list of objects with target, config, mutant and reason";
+        read_record(workspace, REVIEWED_FILE, remedy)
     }
 
     fn of<'a>(&'a self, target: Target, config: &'a str) -> impl Iterator<Item = &'a Review> {
@@ -213,6 +240,29 @@ mod tests {
         assert_eq!(score(&all).cells(), ["99", "95", "1", "1", "2", "97.9 %"]);
         all.extend((0..4).map(|n| tested(n, Fate::Missed)));
         assert_eq!((score(&all).share(), score(&all).passes()), (95.0 / 101.0, false));
+    }
+
+    #[test]
+    fn scores_below_the_recorded_ones_are_told() {
+        let score = |killed: usize| Score {
+            target: "filter".into(),
+            config: "paper".into(),
+            seed: SEED,
+            killed,
+            equivalent: 0,
+            reviewed: 0,
+            survivors: vec![String::new(); 200 - killed],
+        };
+        let mut scores = Scores::default();
+        assert_eq!(scores.faults(&[score(200)]), [format!("filter paper: not in {FILE}")]);
+        scores.update(&[score(195)]);
+        assert_eq!(scores.faults(&[score(195), score(196)]), [""; 0]);
+        assert_eq!(scores.faults(&[score(194)]), ["filter paper: 97.0 %, recorded 97.5 %"]);
+        let golden = Score { config: "golden".into(), ..score(200) };
+        assert_eq!(scores.faults(&[golden]).len(), 1);
+        // Recorded or not, so few are not enough.
+        scores.update(&[score(189)]);
+        assert_eq!(scores.faults(&[score(189)]), ["filter paper: below 95 %"]);
     }
 
     #[test]

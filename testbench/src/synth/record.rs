@@ -14,10 +14,16 @@ use wheatstone_golden::targets::Target;
 /// Where it is in the workspace.
 pub const FILE: &str = "synth/record.json";
 
-/// How much an area may grow: 2 %.
+/// How much an area may grow: 2 %. One that shrinks by more leaves the record out of date.
 const GROWTH: f64 = 1.02;
 /// How far a clock may fall: by 10 %, about what placements of the same netlist differ by.
 const SLOWING: f64 = 0.90;
+
+/// Least clocks that are asked for, whatever was recorded, in MHz.
+pub const FLOORS: [(Target, &str, Tech, f64); 2] = [
+    (Target::Hybrid, "default", Tech::Ecp5, 125.0),
+    (Target::Minimal, "default", Tech::Ice40, 80.0),
+];
 
 /// What a target costs in a configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +41,22 @@ pub struct Entry {
 impl Entry {
     fn is_same(&self, other: &Entry) -> bool {
         (&self.target, &self.config, self.tech) == (&other.target, &other.config, other.tech)
+    }
+
+    /// What it is of.
+    fn name(&self) -> String {
+        format!("{} {} {}", self.target, self.config, self.tech.name())
+    }
+
+    /// What is wrong where its clock is lower than asked for.
+    fn below_floor(&self) -> Option<String> {
+        let is_it = |(target, config, tech, _): &&(Target, &str, Tech, f64)| {
+            (target.name(), *config, *tech) == (&self.target, &self.config, self.tech)
+        };
+        let (.., floor) = FLOORS.iter().find(is_it)?;
+        let is_below = self.figures.get(&Figure::Fmax).is_none_or(|clock| clock < floor);
+        let shown = self.shown(Figure::Fmax);
+        is_below.then(|| format!("{}: MHz {shown}, at least {floor} are asked for", self.name()))
     }
 
     /// A figure as a table shows it.
@@ -63,27 +85,27 @@ pub fn thousands(value: f64) -> String {
 
 /// The record could not be read.
 #[derive(Debug, Error)]
-#[error("{}: {why}; write it with: {command}", .path.display())]
+#[error("{}: {why}; {remedy}", .path.display())]
 pub struct RecordError {
     /// The file.
     pub path: PathBuf,
     /// Why.
     pub why: String,
-    /// The command that writes it.
-    pub command: &'static str,
+    /// What to do.
+    pub remedy: &'static str,
 }
 
-/// Reads a committed record of a workspace, which `command` writes.
+/// Reads a committed record of a workspace; `remedy` says what to do where it cannot be read.
 pub fn read_record<T: DeserializeOwned>(
     workspace: &Path,
     file: &str,
-    command: &'static str,
+    remedy: &'static str,
 ) -> Result<T, RecordError> {
     let path = workspace.join(file);
     let parsed = std::fs::read(&path)
         .map_err(|error| error.to_string())
         .and_then(|text| serde_json::from_slice(&text).map_err(|error| error.to_string()));
-    parsed.map_err(|why| RecordError { path, why, command })
+    parsed.map_err(|why| RecordError { path, why, remedy })
 }
 
 /// All figures, ordered by target, configuration and technology.
@@ -93,7 +115,8 @@ pub struct Record(Vec<Entry>);
 impl Record {
     /// The record of a workspace.
     pub fn read(workspace: &Path) -> Result<Record, RecordError> {
-        read_record(workspace, FILE, "wheatstone synth --tech gates,ice40,ecp5 --record")
+        let remedy = "write it with: wheatstone synth --tech gates,ice40,ecp5 --record";
+        read_record(workspace, FILE, remedy)
     }
 
     /// Writes it, an entry a line, so that a change shows as such.
@@ -115,29 +138,30 @@ impl Record {
         self.0.sort_by_key(place);
     }
 
-    /// What has become worse than the entry here, a line each; also what is not here.
+    /// What has become worse than the entry here, a line each; also what is not here or has become so much
+    /// better that the entry is out of date, and clocks below [`FLOORS`].
     pub fn faults(&self, entries: &[Entry]) -> Vec<String> {
-        entries.iter().flat_map(|entry| self.faults_of(entry)).collect()
+        entries.iter().flat_map(|e| self.faults_of(e).into_iter().chain(e.below_floor())).collect()
     }
 
     fn faults_of(&self, entry: &Entry) -> Vec<String> {
-        let Entry { target, config, tech, .. } = entry;
-        let what = format!("{target} {config} {}", tech.name());
+        let what = entry.name();
         let Some(recorded) = self.0.iter().find(|old| old.is_same(entry)) else {
             return vec![format!("{what}: not in {FILE}")];
         };
-        let worse =
-            |figure: &&Figure| match (recorded.figures.get(figure), entry.figures.get(figure)) {
-                (None, _) => false,
-                (Some(_), None) => true,
+        let differs = |figure: &&Figure| {
+            let [old, new] = [recorded, entry].map(|e| e.figures.get(figure));
+            match (old, new) {
                 (Some(old), Some(new)) if **figure == Figure::Fmax => *new < old * SLOWING,
-                (Some(old), Some(new)) => *new > old * GROWTH,
-            };
+                (Some(old), Some(new)) => *new > old * GROWTH || new * GROWTH < *old,
+                (old, new) => old != new,
+            }
+        };
         let tell = |figure: &Figure| {
             let [old, new] = [recorded, entry].map(|e| e.shown(*figure));
             format!("{what}: {} {new}, recorded {old}", figure.heading())
         };
-        tech.figures().iter().filter(worse).map(tell).collect()
+        entry.tech.figures().iter().filter(differs).map(tell).collect()
     }
 
     /// A figure, if it is there.
@@ -264,13 +288,40 @@ mod tests {
         record.update(std::slice::from_ref(&old));
         let faults =
             |luts, fmax| record.faults(&[entry(&[(Figure::Luts, luts), (Figure::Fmax, fmax)])]);
-        assert!(faults(1020.0, 135.0).is_empty() && faults(500.0, 300.0).is_empty());
+        assert!(faults(1020.0, 135.0).is_empty() && faults(981.0, 300.0).is_empty());
         assert_eq!(faults(1021.0, 150.0), ["filter paper ecp5: LUT4 1,021, recorded 1,000"]);
+        assert_eq!(faults(980.0, 150.0), ["filter paper ecp5: LUT4 980, recorded 1,000"]);
         assert_eq!(faults(1000.0, 134.9).len(), 1);
         // What no longer fits has no clock.
         assert_eq!(record.faults(&[entry(&[(Figure::Luts, 1000.0)])]).len(), 1);
         record.update(&[entry(&[(Figure::Luts, 900.0), (Figure::Fmax, 150.0)])]);
         assert_eq!((record.0.len(), record.faults(&[old]).len()), (1, 1));
+    }
+
+    #[test]
+    fn what_is_not_recorded_is_told() {
+        let mut record = Record::default();
+        record.update(&[entry(&[])]);
+        let faults = record.faults(&[entry(&[(Figure::Luts, 1000.0), (Figure::Fmax, 150.0)])]);
+        let fits = "filter paper ecp5: MHz 150, recorded does not fit";
+        assert_eq!(faults, ["filter paper ecp5: LUT4 1,000, recorded –", fits]);
+    }
+
+    #[test]
+    fn a_clock_below_its_floor_is_told_whatever_is_recorded() {
+        let mut record = Record::default();
+        for (target, config, tech, floor) in FLOORS {
+            let clocked = |clock: Option<f64>| Entry {
+                target: target.name().into(),
+                config: config.into(),
+                tech,
+                figures: clock.map(|clock| (Figure::Fmax, clock)).into_iter().collect(),
+            };
+            for (clock, faults) in [(Some(floor - 0.1), 1), (None, 1), (Some(floor), 0)] {
+                record.update(&[clocked(clock)]);
+                assert_eq!(record.faults(&[clocked(clock)]).len(), faults, "{clock:?}");
+            }
+        }
     }
 
     #[test]
