@@ -113,7 +113,8 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
     print_proofs(prover, &proved)?;
     let proving: f64 = proved.iter().map(|entry| entry.proof.seconds).sum();
     let seconds = started.elapsed().as_secs_f64().round();
-    say!("{seconds:.0} s on the clock; provers took {proving:.0} s together, some of it maybe earlier");
+    let when = if args.fresh { "" } else { ", some of it maybe earlier" };
+    say!("{seconds:.0} s on the clock; provers took {proving:.0} s together{when}");
     write_json(args, "proofs", &proved)?;
     let cores = rayon::current_num_threads();
     let whole = args.is_whole().then_some(Whole { seconds, cores });
