@@ -178,7 +178,7 @@ module sam_filter #(
         p_empty: assert (~f_known | ~f_held | f_count != 0 | pixel_rgba_o == 0);
         // The sums of all channels are what is divided, the reciprocal is that of the count,
         p_sums: assert (~f_known | (&f_good & f_reciprocal));
-        // and each channel of the pixel is the quotient of its own sum and the count.
+        // and each channel of the pixel is what the division gives of its own sum and the count.
         p_divided: assert (&f_divided);
         // Lemma: the sum of nothing is nothing.
         lemma: assert (~f_known | f_count != 0 | {f_sum[0], f_sum[1], f_sum[2], f_sum[3]} == 0);

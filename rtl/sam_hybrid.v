@@ -463,14 +463,14 @@ module sam_hybrid #(
         p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
         // A setup is taken with its LOAD, and with nothing else.
         p_setup: assert (f_setup == (f_take & beat_op_i == `SAM_OP_LOAD));
-        // Edges are taken once for each LOAD, after it; at most one LOAD, with 8 slots or more two, waits for its edges.
+        // Edges are taken once for each LOAD; at most one LOAD, with 8 slots or more two, waits for its edges.
         p_edges: assert (f_loads <= (SLOTS < 8 ? 1 : 2));
         // Where all is ready a beat waits no longer than all slots take to leave, and 8 clocks, whatever the
         // setups were: nothing hangs.
         p_never_hangs: assert (f_waited <= SLOTS + 8);
         // Before a good setup nothing is read or drawn.
         p_void: assert (~f_void | (~request_valid_o & ~left_valid_o & ~right_valid_o));
-        // The error is up at the latest when the third beat after a bad one has been taken,
+        // The error is up at the latest when the third beat after a bad one has been taken, unless cleared meanwhile,
         p_error_rises: assert ($past(rst_i | ~f_take | ~f_due[2] | error_clear_i) | error_o);
         // and stays until it is cleared.
         p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);

@@ -256,10 +256,11 @@ module sam_hybrid_back #(
 
     wire f_take = s2_valid_i & s3_ready_o;
     // Beats that can draw, and pixels that were drawn.
-    reg [4:0] f_ins, f_seconds, f_outs;
+    reg [4:0] f_ins, f_seconds, f_asked, f_outs;
     always @(posedge clk_i) begin
         f_ins     <= rst_i ? 0 : f_ins + (f_take & (s2_draw_i | s2_secondary_i));
         f_seconds <= rst_i ? 0 : f_seconds + (f_take & s2_secondary_i);
+        f_asked   <= rst_i ? 0 : f_asked + (request_valid_o & request_ready_i);
         f_outs    <= rst_i ? 0 : f_outs + (left_valid_o & left_ready_i) + (right_valid_o & right_ready_i);
         assume (~f_begun | $stable(single_i));
     end
@@ -277,8 +278,8 @@ module sam_hybrid_back #(
         p_request_stable: assert (`SAM_WAITS(request_valid_o, request_ready_i, {request_eye_o, request_x_o, request_y_o}));
         // A beat gives two pixels at most.
         p_nothing_made: assert (f_outs <= 2 * f_ins);
-        // Only a secondary pixel is read for: no more reads than there were beats with one.
-        p_reads: assert (f_reads <= f_seconds);
+        // Only a secondary pixel is read for, and once: no more reads than there were beats with one.
+        p_reads: assert (f_asked <= f_seconds);
     end
 `endif
 endmodule

@@ -326,7 +326,7 @@ module sam_minimal #(
         p_void: assert (~f_void | (~left_valid_o & ~right_valid_o));
         // The error is raised by a void beat only,
         p_error: assert ($past(rst_i) | ~error_o | $past(error_o) | $past(f_void) | $past(s1_void));
-        // is up at the latest when the beat after a bad one has been taken,
+        // is up at the latest when the beat after a bad one has been taken, unless cleared meanwhile,
         p_error_rises: assert ($past(rst_i | ~f_take | ~f_due | error_clear_i) | error_o);
         // and stays until it is cleared.
         p_error_stays: assert ($past(rst_i | ~error_o | error_clear_i) | error_o);

@@ -467,6 +467,7 @@ fn a_record_is_of_nothing_unusual() {
         ("mutate --record", &["--rtl r", "--count 5", "--seed 2", "--beats 10"]),
         ("cover --record", &["--rtl r", "--seed 2", "--beats 10", "filter"]),
         ("replay --record", &["--rtl r", "--seed 2", "--beats 10", "--packs p"]),
+        ("prove --record", &["--rtl r", "--quick", "--bugs"]),
         ("synth --check", &["--record", "--param slots=4"]),
         ("baseline --check", &["--record", "--scene ties", "--size 64x48"]),
         ("mutate --check", &["--record", "--count 5", "--seed 2", "--beats 10"]),

@@ -443,14 +443,14 @@ fn recorded<R: Default, E: Into<Failure>>(
     }
 }
 
-/// Tells what is worse than in the record of that file, and gives the exit status.
+/// Tells what is wrong, or not as in the record of that file, and gives the exit status.
 fn checked(faults: &[String], file: &str) -> u8 {
     if faults.is_empty() {
         say!("as recorded in {file}");
         return OK;
     }
     faults.iter().for_each(|fault| say!("{fault}"));
-    say!("if this is meant, update the record with --record in place of --check");
+    say!("where only {file} is out of date, renew it with --record in place of --check");
     MISMATCH
 }
 

@@ -132,7 +132,7 @@ fn verdict(found: &[Found], recorded: Option<&Scores>) -> u8 {
         Some(recorded) => checked(&recorded.faults(&scores), FILE) == OK,
         None => {
             scores.iter().filter_map(Score::low).for_each(|low| say!("{low}"));
-            scores.iter().all(Score::passes)
+            scores.iter().all(|score| score.low().is_none())
         }
     };
     match is_good && found.iter().all(|found| found.stale.is_empty()) {

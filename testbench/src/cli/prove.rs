@@ -21,10 +21,11 @@ pub(super) struct ProveArgs {
     #[arg(long, conflicts_with = "netlist")]
     bugs: bool,
     /// Compare the netlists of gates with the Verilog instead, in the configurations paper and default; exit
-    /// status 1 if one differs. What is not decided in a minute does not
+    /// status 1 if one differs. One that is not decided in a minute counts as not different
     #[arg(long)]
     netlist: bool,
-    /// Prove anew what was proved before, and keep nothing of it: for the time that the whole run takes
+    /// Prove anew what was proved before, and keep nothing of it: for the time that the whole run takes,
+    /// which --record then writes, too
     #[arg(long)]
     fresh: bool,
     /// Write a JSON report
@@ -247,13 +248,15 @@ fn netlists(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8,
     if args.record {
         update(&[], &compared, None)?;
     }
-    let lost = match args.check {
-        true => checked(&read(&root()?)?.lost_netlists(&compared), record::FILE),
-        false => OK,
-    };
     // One that does not close in time is open, not different.
-    let differs = |entry: &Compared| entry.equivalence.points > 0 && !entry.equivalence.closes();
-    Ok(if compared.iter().any(differs) { MISMATCH } else { lost })
+    let differ = compared.iter().filter(|entry| entry.equivalence.differs());
+    let mut faults: Vec<String> = differ.map(Compared::difference).collect();
+    if args.check {
+        faults.extend(read(&root()?)?.lost_netlists(&compared));
+        return Ok(checked(&faults, record::FILE));
+    }
+    faults.iter().for_each(|fault| say!("{fault}"));
+    Ok(if faults.is_empty() { OK } else { MISMATCH })
 }
 
 fn write_json(
@@ -274,7 +277,10 @@ fn update(proofs: &[Proved], netlists: &[Compared], whole: Option<Whole>) -> Res
     let root = root()?;
     let mut record = recorded(&root, record::FILE, read)?;
     record.update(proofs, netlists);
-    record.whole = whole.or(record.whole);
+    if !proofs.is_empty() {
+        // The time of other proofs says nothing of these.
+        record.whole = whole;
+    }
     record.write(&root)?;
     say!("{}: written; now run: wheatstone generate", record::FILE);
     Ok(())

@@ -75,10 +75,13 @@ impl Score {
         self.share() >= LEAST_SCORE
     }
 
-    /// What is wrong where it is not.
+    /// What is wrong where it is not. Of systems that are tested only when they are named much cannot be
+    /// decided: their score may be low.
     pub fn low(&self) -> Option<String> {
         let least = 100.0 * LEAST_SCORE;
-        (!self.passes()).then(|| format!("{} {}: below {least:.0} %", self.target, self.config))
+        let counts = Target::named(&self.target).is_none_or(super::is_usual);
+        (counts && !self.passes())
+            .then(|| format!("{} {}: below {least:.0} %", self.target, self.config))
     }
 
     /// Whether both are of the same target in the same configuration.

@@ -25,6 +25,11 @@ impl Equivalence {
     pub fn closes(&self) -> bool {
         self.points > 0 && self.open == 0
     }
+
+    /// Whether the comparison came to its end and did not prove it.
+    pub fn differs(&self) -> bool {
+        self.open > 0
+    }
 }
 
 impl Prover {

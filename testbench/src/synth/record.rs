@@ -55,7 +55,8 @@ impl Entry {
         };
         let (.., floor) = FLOORS.iter().find(is_it)?;
         let is_below = self.figures.get(&Figure::Fmax).is_none_or(|clock| clock < floor);
-        let shown = self.shown(Figure::Fmax);
+        let clock = self.figures.get(&Figure::Fmax);
+        let shown = clock.map_or("does not fit".into(), |clock| format!("{clock:.1}"));
         is_below.then(|| format!("{}: MHz {shown}, at least {floor} are asked for", self.name()))
     }
 
@@ -153,7 +154,7 @@ impl Record {
             let [old, new] = [recorded, entry].map(|e| e.figures.get(figure));
             match (old, new) {
                 (Some(old), Some(new)) if **figure == Figure::Fmax => *new < old * SLOWING,
-                (Some(old), Some(new)) => *new > old * GROWTH || new * GROWTH < *old,
+                (Some(old), Some(new)) => *new > old * GROWTH || *new < old * (2.0 - GROWTH),
                 (old, new) => old != new,
             }
         };
@@ -290,7 +291,7 @@ mod tests {
             |luts, fmax| record.faults(&[entry(&[(Figure::Luts, luts), (Figure::Fmax, fmax)])]);
         assert!(faults(1020.0, 135.0).is_empty() && faults(981.0, 300.0).is_empty());
         assert_eq!(faults(1021.0, 150.0), ["filter paper ecp5: LUT4 1,021, recorded 1,000"]);
-        assert_eq!(faults(980.0, 150.0), ["filter paper ecp5: LUT4 980, recorded 1,000"]);
+        assert_eq!(faults(979.0, 150.0), ["filter paper ecp5: LUT4 979, recorded 1,000"]);
         assert_eq!(faults(1000.0, 134.9).len(), 1);
         // What no longer fits has no clock.
         assert_eq!(record.faults(&[entry(&[(Figure::Luts, 1000.0)])]).len(), 1);
