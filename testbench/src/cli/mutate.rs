@@ -211,7 +211,7 @@ fn print(found: &[Found]) {
             }
         }
         for mutant in stale {
-            say!("STALE {name} {mutant}: in {REVIEWED_FILE}, but no mutant left has this name");
+            say!("STALE {name} {mutant}: in {REVIEWED_FILE}, but none that is left undecided has this name");
         }
     }
 }

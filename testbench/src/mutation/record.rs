@@ -209,7 +209,8 @@ impl Reviews {
         self.of(target, config).find(|r| r.mutant == told).map(|r| r.reason.clone())
     }
 
-    /// Entries of a target that no longer fit: of its usual mutants none is so called, or it is killed.
+    /// Entries of a target that no longer fit: of its usual mutants none is so called, or it is killed, or some
+    /// beats show it. One that a faster machine proves in its time fits.
     pub fn stale<'a, M: Display>(
         &'a self,
         target: Target,
@@ -218,7 +219,7 @@ impl Reviews {
     ) -> Vec<&'a Review> {
         let fits = |review: &Review| {
             let mut same = tested.iter().filter(|t| t.mutant.to_string() == review.mutant);
-            same.any(|t| matches!(t.fate, Fate::Reviewed(_)))
+            same.any(|t| matches!(t.fate, Fate::Reviewed(_) | Fate::Equivalent))
         };
         self.of(target, config).filter(|review| !fits(review)).collect()
     }
@@ -284,5 +285,7 @@ mod tests {
         let all = [tested(1, Fate::Reviewed("why".into())), tested(2, Fate::Killed("x".into()))];
         let stale = reviews.stale(Target::Display, "default", &all);
         assert_eq!(stale, [&reviews.0[1], &reviews.0[2]]);
+        let proved = [1, 2, 3].map(|number| tested(number, Fate::Equivalent));
+        assert!(reviews.stale(Target::Display, "default", &proved).is_empty());
     }
 }
