@@ -10,6 +10,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// The line from which on a file has properties, which provers alone read, up to the next `` `endif ``.
+pub(crate) const FORMAL: &str = "`ifdef FORMAL\n";
+
 /// Files by name, with their content.
 pub(crate) type Sources = BTreeMap<String, Vec<u8>>;
 
@@ -57,11 +60,11 @@ pub(crate) fn read(rtl: &Path, module: &str) -> Result<Sources, Unreadable> {
     Ok(sources)
 }
 
-/// What is hardware of it: without the properties, which provers alone read.
+/// What is hardware of it: without the properties.
 pub(crate) fn hardware(mut sources: Sources) -> Sources {
     for content in sources.values_mut() {
         let text = String::from_utf8_lossy(content);
-        let parts = text.split_once("`ifdef FORMAL\n");
+        let parts = text.split_once(FORMAL);
         let parts = parts.and_then(|(before, rest)| Some((before, rest.split_once("`endif\n")?.1)));
         if let Some((before, after)) = parts {
             *content = [before, after].concat().into_bytes();

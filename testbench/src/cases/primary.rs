@@ -286,8 +286,7 @@ fn for_one_eye(polygons: Vec<Polygon>, eye: Eye) -> Vec<Polygon> {
 pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
     let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
     let size = [rng.u32(24..90), rng.u32(16..70)];
-    // Fewer polygons than these hardly meet.
-    let count = (beats / 150).max(40) as u32;
+    let count = (beats / 150).max(2) as u32;
     let polygons = systems::random_polygons(rng.u64(..), f, size, count);
     let eye = Eye::BOTH[rng.usize(..2)];
     let polygons = for_one_eye(polygons, eye);

@@ -156,6 +156,7 @@ fn test(
     reviews: &Reviews,
 ) -> Result<Found, Failure> {
     let label = args.label(target);
+    // There is none where it is golden models that are tested.
     let Some(builder) = builder else {
         let reason = |mutant: &str| reviews.reason(target, &label, &mutant);
         let tested = golden::test(root, target, reason)?;

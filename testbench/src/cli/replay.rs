@@ -174,6 +174,13 @@ fn found(folder: &Path, targets: &[Target]) -> Result<Vec<Named>, Failure> {
     Ok(packs)
 }
 
+/// Beats that the case of a pack is asked for. A polygon of the monocular pipeline counts as 150 there, more
+/// than most of a pack's have.
+fn asked(target: Target, beats: u64) -> usize {
+    let times = if target == Target::Mono { 6 } else { 1 };
+    (times * beats) as usize
+}
+
 /// Packs of random beats.
 fn make(args: &ReplayArgs, rtl: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
     let targets = match &args.targets[..] {
@@ -184,7 +191,7 @@ fn make(args: &ReplayArgs, rtl: &Path, out: &Path) -> Result<Vec<Named>, Failure
     for name in &args.config {
         let config = Settings::new::<&str>(name, &[])?.config;
         for &target in &targets {
-            let case = cases::random(target, &config, args.seed, args.beats as usize);
+            let case = cases::random(target, &config, args.seed, asked(target, args.beats));
             let hash = pack::rtl_hash(rtl, target.module())?;
             let written = pack::write(&case, args.seed, &hash, &out.join(name))?;
             for pack in pack::check(&written.folder)? {

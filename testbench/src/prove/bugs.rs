@@ -1,7 +1,7 @@
 //! The bugs that the properties catch: at least one of each property.
 
 use crate::flow::FlowError;
-use crate::sources::Sources;
+use crate::sources::{Sources, FORMAL};
 
 /// A text of a module's Verilog that another one takes the place of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl Bug {
         let file = sources.get_mut(&format!("sam_{}.v", self.module));
         let file = file.ok_or_else(|| self.fault("there is no such module"))?;
         let text = String::from_utf8_lossy(file).into_owned();
-        let hardware = text.split("`ifdef FORMAL").next().unwrap_or_default();
+        let hardware = text.split(FORMAL).next().unwrap_or_default();
         match hardware.matches(self.find).count() {
             1 => *file = text.replacen(self.find, self.replace, 1).into_bytes(),
             times => return Err(self.fault(&format!("the text occurs {times} times, not once"))),

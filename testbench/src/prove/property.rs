@@ -1,5 +1,7 @@
 //! The properties in the text of a module.
 
+use crate::sources::FORMAL;
+
 /// A property: an assertion whose label begins with `p_`, or several whose labels end in `__` and a
 /// number, for parts that are easier proved alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,7 +14,7 @@ pub struct Property {
 
 /// The properties of a module, in their order. What else is asserted are lemmas.
 pub fn properties(text: &str) -> Vec<Property> {
-    let Some((_, formal)) = text.split_once("`ifdef FORMAL") else { return Vec::new() };
+    let Some((_, formal)) = text.split_once(FORMAL) else { return Vec::new() };
     let mut properties = Vec::new();
     let mut sentence: Vec<&str> = Vec::new();
     for line in formal.lines().map(str::trim) {
