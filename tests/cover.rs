@@ -1,4 +1,5 @@
-//! Coverage: the regression covers all of a unit, a few beats do not, and every waiver can be read.
+//! Coverage: the regression covers all of a unit, a few beats and random registers do not, and every waiver can be
+//! read.
 
 use wheatstone_golden::targets::Target;
 use wheatstone_testbench::cover::{self, Counts, Report, Waiver};
@@ -37,6 +38,15 @@ fn what_is_not_run_is_missing() {
     let report = Report::new(&counts, &[]);
     let names: Vec<&str> = report.missing.iter().map(|point| point.name.as_str()).collect();
     assert!(names.contains(&"count_q[3]"), "three beats do not count to 8: {names:?}");
+}
+
+#[test]
+fn what_registers_begin_with_is_not_stimulus() {
+    let counts = measure(plan(&[Target::Primary], settings("default", &[]), 2_000));
+    let report = Report::new(&counts, &[]);
+    let names: Vec<&str> = report.missing.iter().map(|point| point.name.as_str()).collect();
+    assert!(names.contains(&"alpha_low[0]"), "planes have no dropped bits, only zeros are stored");
+    assert!(!names.contains(&"alpha[20]"), "colours change");
 }
 
 #[test]

@@ -93,7 +93,9 @@ struct Handle {
     char text[sizeof event.text] = "";
 
     explicit Handle(int seed) {
-        context.randReset(2);
+        // Random values show what is used before it is set. Where coverage is counted, they would count as
+        // stimulus: a bit that is only ever read before anything is stored would seem to change.
+        context.randReset(VM_COVERAGE ? 0 : 2);
         context.randSeed(seed);
         context.traceEverOn(true);
         context.fatalOnError(false);

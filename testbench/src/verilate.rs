@@ -61,9 +61,10 @@ const GXX_FLAGS: &[&str] = &[
     "-DVM_SC=0",
 ];
 
-/// Flags of models that count their own code and its signals, however wide these are.
+/// Flags of models that count their own code and its signals, however wide these are. `-fno-gate`: or a net at a port
+/// shares a counter with the signal behind it, which is one for all instances of a module.
 const COVERAGE_FLAGS: &[&str] =
-    &["--coverage-line", "--coverage-toggle", "--coverage-max-width", "65536"];
+    &["--coverage-line", "--coverage-toggle", "--coverage-max-width", "65536", "-fno-gate"];
 
 /// What makes models fast, and what makes builds fast.
 const OPTIMISED: &str = "-O3";
