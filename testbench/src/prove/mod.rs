@@ -272,17 +272,33 @@ impl Prover {
         match self.fails(bug, &clean, step + 1)? {
             Catch::At(_) => Err(bug.fault("the property fails without the bug")),
             Catch::Not => Ok(caught),
+            Catch::Stopped if self.holds(bug, step + 1)? => Ok(caught),
             Catch::Stopped => Ok(Catch::Stopped),
         }
     }
 
+    /// Whether a bug's property is proved without the bug, for so many clocks at least. Beside the other properties and
+    /// by induction that may be quick where it alone is not.
+    fn holds(&self, bug: &Bug, clocks: u32) -> Result<bool, FlowError> {
+        let proof = self.prove(&self.build(bug)?, Effort::of(bug.module))?;
+        let own = proof.verdicts.iter().filter(|(label, _)| name(label) == Some(bug.property));
+        Ok(own.map(|(_, verdict)| *verdict).all(|verdict| match verdict {
+            Verdict::Induction(_) => true,
+            Verdict::Bounded(reached) => reached >= clocks,
+            Verdict::Fails(_) => false,
+        }))
+    }
+
+    /// The build that a bug is planted in.
+    fn build(&self, bug: &Bug) -> Result<Build, FlowError> {
+        let is_it = |build: &Build| build.label.split(", ").any(|label| label == bug.build);
+        let found = self.builds(bug.module)?.into_iter().find(is_it);
+        found.ok_or_else(|| bug.fault(&format!("there is no build “{}”", bug.build)))
+    }
+
     /// Where a bug's property fails, within so many clocks.
     fn fails(&self, bug: &Bug, sources: &Sources, bound: u32) -> Result<Catch, FlowError> {
-        let builds = self.builds(bug.module)?;
-        let is_it = |build: &&Build| build.label.split(", ").any(|label| label == bug.build);
-        let Some(build) = builds.iter().find(is_it) else {
-            return Err(bug.fault(&format!("there is no build “{}”", bug.build)));
-        };
+        let build = &self.build(bug)?;
         let programs = Programs::find()?;
         let commands = read_commands(sources, build);
         let what = format!("{} {bound}", bug.property);
