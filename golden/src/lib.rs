@@ -49,6 +49,8 @@ pub mod stereo;
 #[cfg(feature = "std")]
 pub mod targets;
 #[cfg(feature = "std")]
+pub mod text;
+#[cfg(feature = "std")]
 pub mod texture;
 #[cfg(feature = "std")]
 pub mod visibility;

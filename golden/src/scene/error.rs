@@ -1,6 +1,7 @@
 //! What can be wrong with a scene, and where.
 
 use super::locate::Locator;
+use crate::text::{self, printable, printable_path, TextError};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -13,7 +14,7 @@ pub const ID_LIMIT: usize = (1 << 24) - 1;
 
 /// A wrong value in an input file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}{}: {field}: expected {expected}, found {found}", .file.display(), Line(*.line))]
+#[error("{}{}: {field}: expected {expected}, found {found}", printable_path(.file), Line(*.line))]
 pub struct InputError {
     /// The file.
     pub file: PathBuf,
@@ -52,14 +53,6 @@ impl InputError {
             found: printable(&found.into()),
         }
     }
-}
-
-/// Text of a file for one line of a terminal: without control characters, cut short.
-fn printable(text: &str) -> String {
-    const MOST: usize = 200;
-    let shown = text.chars().take(MOST).map(|c| if c.is_control() { '\u{fffd}' } else { c });
-    let more = text.chars().nth(MOST).map(|_| "…");
-    shown.chain(more.iter().flat_map(|m| m.chars())).collect()
 }
 
 /// A rig that nothing can be projected with.
@@ -114,7 +107,7 @@ pub enum SceneError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// A file cannot be read.
-    #[error("{}: cannot be read: {source}", .file.display())]
+    #[error("{}: cannot be read: {source}", printable_path(.file))]
     Read {
         /// The file.
         file: PathBuf,
@@ -122,7 +115,7 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// Neither a built-in scene nor a file of a known kind.
-    #[error("scene {name}: expected a file ending in .obj, .json, .png, .txt or .grid, or one of: {}", .builtin.join(", "))]
+    #[error("scene {}: expected a file ending in .obj, .json, .png, .txt or .grid, or one of: {}", printable(.name), .builtin.join(", "))]
     Unknown {
         /// What was asked for.
         name: String,
@@ -172,13 +165,12 @@ pub fn read(file: &Path) -> Result<Vec<u8>, SceneError> {
     std::fs::read(file).map_err(wrong)
 }
 
-/// The text of a file, without the byte order mark that some editors put in front.
+/// The text of a file in UTF-8.
 pub fn read_text(file: &Path) -> Result<String, SceneError> {
-    let bytes = read(file)?;
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-    let text = std::str::from_utf8(bytes).map_err(|e| {
-        let line = bytes[..e.valid_up_to()].iter().filter(|&&b| b == b'\n').count() + 1;
-        InputError::new(file, line, "file", "UTF-8 text", "other bytes")
-    })?;
-    Ok(text.into())
+    Ok(text::decode(&read(file)?).map_err(|error| no_text(file, error))?)
+}
+
+/// A file that holds no text.
+pub(super) fn no_text(file: &Path, error: TextError) -> InputError {
+    InputError::new(file, error.line(), "file", "UTF-8 text", error.to_string())
 }

@@ -5,8 +5,9 @@
 //! is handed to it here is correct, has absolute indices, and begins a new group at every change
 //! of layout; the rest of the file is left out.
 
-use super::error::{read, InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT};
+use super::error::{no_text, read, InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT};
 use super::mesh::REPEAT_LIMIT;
+use crate::text;
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -102,7 +103,7 @@ fn each_line(
     file: &Path,
     mut check: impl FnMut(&Words) -> Result<(), SceneError>,
 ) -> Result<(), SceneError> {
-    let text = String::from_utf8_lossy(&read(file)?).into_owned();
+    let text = text::decode_with_latin1(&read(file)?).map_err(|error| no_text(file, error))?;
     for (line, words) in lines(&text) {
         let words = words.trim();
         let (keyword, rest) = words.split_once(char::is_whitespace).unwrap_or((words, ""));
