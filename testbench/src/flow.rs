@@ -8,9 +8,11 @@ use serde::{de::DeserializeOwned, Serialize};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
+use std::time::Duration;
 use thiserror::Error;
 use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_process::{Output, Process, ProcessError};
 
 /// Why a flow of open tools came to no result.
 #[derive(Debug, Error)]
@@ -29,6 +31,9 @@ pub enum FlowError {
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// A tool did not run, or not to its end.
+    #[error(transparent)]
+    Process(#[from] ProcessError),
     /// A tool refused the design, or does not say what it is expected to.
     #[error("{tool} failed on {module}:\n{lines}")]
     Failed {
@@ -104,9 +109,6 @@ pub(crate) struct Folder {
     module: String,
 }
 
-/// Exit status of a command of [`Folder::limited`] that was stopped.
-pub(crate) const STOPPED: i32 = 124;
-
 impl Folder {
     /// A folder below `cache`.
     pub fn of(cache: &Path, module: &str, sources: &Sources) -> Result<Folder, FlowError> {
@@ -133,10 +135,10 @@ impl Folder {
         fs::read_to_string(&path).map_err(|source| FlowError::Read { path, source })
     }
 
-    /// A command of a tool that works in this folder.
+    /// A command of a tool that works in this folder and finds the programs that it calls.
     pub fn command(&self, tool: &Found) -> Command {
         let mut command = Command::new(&tool.program);
-        command.current_dir(self.folder.path());
+        command.current_dir(self.folder.path()).env("PATH", tools::search_path());
         // Tools from PyPI compile themselves at their first call and keep that here.
         if let Some(cache) = tools::python_cache() {
             command.env("YOWASP_CACHE_DIR", cache);
@@ -144,29 +146,25 @@ impl Folder {
         command
     }
 
-    /// A command that works in this folder and is stopped, with all that it has started, after so many
-    /// seconds; its exit status is then [`STOPPED`].
-    pub fn limited(&self, tool: &Found, seconds: u32) -> Command {
-        let mut command = Command::new("timeout");
-        command.current_dir(self.folder.path()).env("PATH", tools::search_path());
-        command.arg(seconds.to_string()).arg(&tool.program);
-        command
-    }
-
     /// Runs a command; what it said, where it failed, becomes the error.
     pub fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<(), FlowError> {
-        let output = self.output(command)?;
-        if output.status.success() {
-            return Ok(());
+        let output = Process::new(tool.program, command).on(&self.module).run()?;
+        match output.succeeded() {
+            true => Ok(()),
+            false => Err(self.failed(tool, &output.said())),
         }
-        let text = [output.stdout, output.stderr].concat();
-        Err(self.failed(tool, &String::from_utf8_lossy(&text)))
     }
 
-    /// What a command says and how it ends.
-    pub fn output(&self, command: &mut Command) -> Result<Output, FlowError> {
-        let output = command.output();
-        output.map_err(|source| FlowError::Read { path: command.get_program().into(), source })
+    /// What a command says and how it ends; it is stopped when it and all that it has started have used so many
+    /// seconds of processor time together, see [`Output::is_stopped`].
+    pub fn limited(
+        &self,
+        tool: &'static Tool,
+        command: &mut Command,
+        seconds: u32,
+    ) -> Result<Output, FlowError> {
+        let limit = Duration::from_secs(seconds.into());
+        Ok(Process::new(tool.program, command).on(&self.module).processor(limit).run()?)
     }
 
     /// The error of a tool that said `text`.

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 use thiserror::Error;
+use wheatstone_process::{Output, Process, ProcessError};
 
 /// How a pack is replayed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +70,9 @@ pub enum ReplayError {
         /// Why.
         source: io::Error,
     },
+    /// A tool did not run, or not to its end.
+    #[error(transparent)]
+    Process(#[from] ProcessError),
     /// A tool refused what it was given, or gave no verdict.
     #[error("{tool} failed on {}:\n{said}", .pack.display())]
     Failed {
@@ -140,7 +144,7 @@ impl Run<'_> {
         command.arg("-o").arg(&program).arg(bench).args(files);
         self.run(&ICARUS, &mut command)?;
         let said = self.run(&VVP, Command::new(&vvp.program).arg(&program))?;
-        self.verdict(&VVP, said, start)
+        self.verdict(&VVP, &said, start)
     }
 
     /// The same with a netlist in the module's place.
@@ -165,8 +169,8 @@ impl Run<'_> {
         command.arg(script).arg(&self.pack.folder).arg("--rtl");
         command.arg(&self.replayer.synthesiser.rtl);
         // A difference is told by the exit status too.
-        let said = command.output().map_err(ReplayError::at(&program))?;
-        self.verdict(&COCOTB, [said.stdout, said.stderr].concat(), start)
+        let said = self.process(&COCOTB, &mut command)?.said();
+        self.verdict(&COCOTB, &said, start)
     }
 
     fn write(&self, name: &str, text: &str) -> Result<PathBuf, ReplayError> {
@@ -176,31 +180,32 @@ impl Run<'_> {
     }
 
     /// Runs a command that must succeed; returns what it said.
-    fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<Vec<u8>, ReplayError> {
-        let program = PathBuf::from(command.get_program());
-        let output = command.output().map_err(ReplayError::at(&program))?;
-        let text = [output.stdout, output.stderr].concat();
-        if output.status.success() {
-            Ok(text)
-        } else {
-            Err(self.failed(tool, &String::from_utf8_lossy(&text)))
+    fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<String, ReplayError> {
+        let output = self.process(tool, command)?;
+        match output.succeeded() {
+            true => Ok(output.said()),
+            false => Err(self.failed(tool, &output.said())),
         }
+    }
+
+    fn process(&self, tool: &'static Tool, command: &mut Command) -> Result<Output, ReplayError> {
+        let pack = self.pack.folder.display().to_string();
+        Ok(Process::new(tool.program, command).on(pack).run()?)
     }
 
     /// What the bench's last line says.
     fn verdict(
         &self,
         tool: &'static Tool,
-        said: Vec<u8>,
+        said: &str,
         start: Instant,
     ) -> Result<Replayed, ReplayError> {
-        let said = String::from_utf8_lossy(&said).trim_end().to_owned();
         let passed = match said.lines().last() {
             Some("PASS") => true,
             Some(line) if line.starts_with("FAIL (") => false,
-            _ => return Err(self.failed(tool, &said)),
+            _ => return Err(self.failed(tool, said)),
         };
-        Ok(Replayed { passed, said, time: start.elapsed() })
+        Ok(Replayed { passed, said: said.to_owned(), time: start.elapsed() })
     }
 
     fn failed(&self, tool: &'static Tool, said: &str) -> ReplayError {

@@ -6,6 +6,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use thiserror::Error;
+use wheatstone_process::{Output, Process, ANSWER};
 
 /// A version of a tool: its first two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -72,14 +73,20 @@ impl Tool {
             .map(|folder| folder.join(self.program))
             .find(|program| program.is_file())
             .ok_or(ToolError::Missing(self))?;
-        let text = first_line(&program, self.version_arguments, path).ok();
-        let version = text.as_deref().and_then(Version::parse);
+        let text = match first_line(&program, self.version_arguments, path) {
+            Ok(text) => text,
+            Err(why) => {
+                let call = self.version_arguments.join(" ");
+                return Err(ToolError::Call { tool: self, program, call, why });
+            }
+        };
+        let version = Version::parse(&text);
         match (self.oldest, version) {
             (Some(oldest), Some(found)) if found < oldest => {
                 Err(ToolError::TooOld { tool: self, found, program })
             }
             (Some(_), None) => Err(ToolError::Unusable { tool: self, program }),
-            _ => Ok(Found { program, version, text: text.unwrap_or_default() }),
+            _ => Ok(Found { program, version, text }),
         }
     }
 }
@@ -280,7 +287,7 @@ pub enum ToolError {
         /// Where it was found.
         program: PathBuf,
     },
-    /// It says its version, but not what else it is asked.
+    /// It does not answer what it is asked.
     #[error(
         "{} {call}: {why}; install it again with: {}", .program.display(), .tool.install_command()
     )]
@@ -299,8 +306,11 @@ pub enum ToolError {
 /// First non-empty line that a program prints on its standard output, or else on standard error; or
 /// why there is none.
 fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Result<String, String> {
-    let output = Command::new(program).args(arguments).env("PATH", path).output();
-    let output = output.map_err(|error| error.to_string())?;
+    let name = program.file_name().unwrap_or_default().to_string_lossy();
+    let mut command = Command::new(program);
+    command.args(arguments).env("PATH", path);
+    let call = Process::new(name, &mut command).on(arguments.join(" ")).within(ANSWER);
+    let output = call.run().map_err(|error| error.to_string())?;
     let line = [output.stdout, output.stderr].iter().find_map(|text| {
         let text = String::from_utf8_lossy(text);
         text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
@@ -387,8 +397,10 @@ impl Toolchain {
 /// Asks the compiler for the header of zlib.
 fn zlib_header(gxx: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
     let arguments = ["-E", "-M", "-x", "c++", "-include", "zlib.h", "/dev/null"];
-    let output = Command::new(&gxx.program).args(arguments).env("PATH", path).output();
-    let output = output.ok().filter(|output| output.status.success());
+    let mut command = Command::new(&gxx.program);
+    command.args(arguments).env("PATH", path);
+    let output = Process::new(GXX.program, &mut command).on("zlib.h").within(ANSWER).run();
+    let output = output.ok().filter(Output::succeeded);
     let output = output.ok_or(ToolError::Missing(&ZLIB))?;
     let text = String::from_utf8_lossy(&output.stdout);
     let header = text.split_whitespace().find(|word| word.ends_with("/zlib.h"));

@@ -23,6 +23,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 use wheatstone_golden::interface::Interface;
+use wheatstone_process::{Process, ProcessError};
 
 /// Flags of every translation; `-fno-…` against wrong code of Verilator 5.006 (its issue #4832).
 const VERILATOR_FLAGS: &[&str] = &[
@@ -133,6 +134,9 @@ pub enum BuildError {
     /// The module's ports are not those of its interface.
     #[error(transparent)]
     Port(#[from] PortError),
+    /// A tool did not run, or not to its end.
+    #[error(transparent)]
+    Process(#[from] ProcessError),
     /// A tool refused the module.
     #[error("{tool} failed on {module}:\n{lines}\n(all of it: {})", .log.display())]
     Failed {
@@ -406,23 +410,19 @@ fn cpp_files(folder: &Path) -> Result<Vec<String>, BuildError> {
     Ok(files)
 }
 
-/// Runs a tool; its output goes to `log`, which stays only if it failed.
+/// Runs a tool; what it says goes to `log`, which stays only if it failed.
 fn run(
     mut command: Command,
     tool: &'static str,
     module: &str,
     log: &Path,
 ) -> Result<(), BuildError> {
-    let output = command.output().map_err(|source| BuildError::Cache {
-        path: PathBuf::from(command.get_program()),
-        source,
-    })?;
-    if output.status.success() {
+    let output = Process::new(tool, &mut command).on(module).run()?;
+    if output.succeeded() {
         return Ok(());
     }
-    let text = [output.stdout, output.stderr].concat();
-    write(log, &text)?;
-    let text = String::from_utf8_lossy(&text);
+    let text = output.said();
+    write(log, text.as_bytes())?;
     let all: Vec<&str> = text.lines().collect();
     let first = all.iter().position(|line| line.contains("rror")).unwrap_or(0);
     let lines = all[first..].iter().take(8).copied().collect::<Vec<_>>().join("\n");

@@ -3,15 +3,15 @@
 //! The renderer is Mesa's llvmpipe, off screen, with 8 subpixel bits. It is given the snapped
 //! corners, so that what is compared is scan conversion, the top-left rule and the depth test.
 
-use std::io::Write;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use thiserror::Error;
 use wheatstone_golden::direct::Direct;
 use wheatstone_golden::formats::{Eye, Formats, DEPTH_MAX, FRACTION_BITS};
 use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::setup::{Attributes, Polygon};
 use wheatstone_golden::texture::Lookup;
+use wheatstone_process::{Process, ProcessError, KEPT};
 
 /// Pixels drawn around the view, as many as the guard band has.
 const MARGIN: u32 = 1024;
@@ -59,15 +59,13 @@ impl Renderer {
         let source = folder.path().join("opengl_ids.c");
         std::fs::write(&source, include_str!("opengl_ids.c")).map_err(failed)?;
         let renderer = Renderer { folder, threads: None };
-        let built = Command::new("cc")
-            .args(["-O2", "-Wall", "-o"])
-            .args([&renderer.program(), &source])
-            .arg("-lOSMesa")
-            .stderr(Stdio::null())
-            .status();
-        match built.map_err(OpenGlError::Compiler)?.success() {
-            true => Ok(renderer),
-            false => Err(OpenGlError::Library),
+        let mut command = Command::new("cc");
+        command.args(["-O2", "-Wall", "-o"]).args([&renderer.program(), &source]).arg("-lOSMesa");
+        match Process::new("cc", &mut command).on("opengl_ids.c").run() {
+            Ok(output) if output.succeeded() => Ok(renderer),
+            Ok(_) => Err(OpenGlError::Library),
+            Err(ProcessError::Start { source, .. }) => Err(OpenGlError::Compiler(source)),
+            Err(error) => Err(OpenGlError::Failed(error.to_string())),
         }
     }
 
@@ -83,7 +81,6 @@ impl Renderer {
         triangles: &[[[f64; 3]; 3]],
         rounds: u32,
     ) -> Result<Drawn, OpenGlError> {
-        let failed = |error: std::io::Error| OpenGlError::Failed(error.to_string());
         let input: Vec<u8> =
             triangles.iter().flatten().flatten().flat_map(|&n| (n as f32).to_le_bytes()).collect();
         let mut command = Command::new(self.program());
@@ -92,15 +89,14 @@ impl Renderer {
             // llvmpipe's threads beside the one that calls it.
             command.env("LP_NUM_THREADS", threads.saturating_sub(1).to_string());
         }
-        let streams = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = streams.spawn().map_err(failed)?;
-        let stdin = child.stdin.take();
-        let output = std::thread::scope(|scope| {
-            // A program that ends early says why itself.
-            scope.spawn(move || stdin.map(|mut pipe| pipe.write_all(&input)));
-            child.wait_with_output()
-        });
-        let output = output.map_err(failed)?;
+        let [width, height] = size.map(|n| n as usize);
+        let output = Process::new("the OpenGL renderer", &mut command)
+            .on(format!("{width} x {height} pixels"))
+            .input(input)
+            // Half of it is the beginning: a word a pixel.
+            .keep(KEPT + 2 * 4 * width * height)
+            .run()
+            .map_err(|error| OpenGlError::Failed(error.to_string()))?;
         let said = String::from_utf8_lossy(&output.stderr).trim().to_owned();
         let mut lines = said.lines().rev();
         let seconds = lines.next().and_then(|line| line.parse().ok());

@@ -228,6 +228,7 @@ impl Console {
             bar.set_style(style);
             bar.enable_steady_tick(std::time::Duration::from_millis(200));
         }
+        turn(bar.clone());
         Console { bar, lock: Mutex::new(()) }
     }
 
@@ -261,5 +262,6 @@ impl Console {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+        turn(None);
     }
 }

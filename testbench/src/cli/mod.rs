@@ -53,6 +53,8 @@ use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 use thiserror::Error;
 use wheatstone_golden::formats::Formats;
 use wheatstone_golden::picture::WriteError;
@@ -82,6 +84,9 @@ const MISSING_TOOL: u8 = 3;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Stop any program that is called and has not ended after so many seconds [default: 3600]
+    #[arg(long, global = true, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..))]
+    timeout: Option<u32>,
 }
 
 const EXAMPLES: &str = "Examples:
@@ -269,6 +274,10 @@ impl Failure {
 /// Runs the program.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
+    wheatstone_process::on_wait(tell_waiting);
+    if let Some(seconds) = cli.timeout {
+        wheatstone_process::set_limit(Duration::from_secs(seconds.into()));
+    }
     let result = match &cli.command {
         Command::Cosim(args) => cosim::run(args),
         Command::Vectors(args) => vectors::write(args),
@@ -511,6 +520,22 @@ fn is_terminal() -> bool {
     std::io::stderr().is_terminal()
 }
 
+/// The bar or spinner that turns in the terminal, if one does.
+static TURNING: Mutex<Option<ProgressBar>> = Mutex::new(None);
+
+/// Notes what turns from now on.
+fn turn(bar: Option<ProgressBar>) {
+    *TURNING.lock().unwrap_or_else(PoisonError::into_inner) = bar;
+}
+
+/// Tells what is waited for.
+fn tell_waiting(text: &str) {
+    match &*TURNING.lock().unwrap_or_else(PoisonError::into_inner) {
+        Some(bar) => bar.suspend(|| tell!("{text}")),
+        None => tell!("{text}"),
+    }
+}
+
 /// Tells what is being worked on: beside a spinner in a terminal, a line each elsewhere.
 struct Spinner(Option<ProgressBar>);
 
@@ -520,8 +545,9 @@ impl Spinner {
         let bar = is_terminal().then(ProgressBar::new_spinner);
         if let (Some(bar), Ok(style)) = (&bar, style) {
             bar.set_style(style);
-            bar.enable_steady_tick(std::time::Duration::from_millis(200));
+            bar.enable_steady_tick(Duration::from_millis(200));
         }
+        turn(bar.clone());
         Spinner(bar)
     }
 
@@ -548,6 +574,7 @@ impl Drop for Spinner {
         if let Some(bar) = &self.0 {
             bar.finish_and_clear();
         }
+        turn(None);
     }
 }
 

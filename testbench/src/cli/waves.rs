@@ -6,8 +6,9 @@ use crate::scratch::Tidy;
 use crate::tools::GTKWAVE;
 use std::io::{Read, Seek};
 use std::process::Stdio;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use wheatstone_golden::formats::Eye;
+use wheatstone_process::Process;
 
 /// How long GTKWave must live to count as open.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -108,15 +109,9 @@ fn open(view: &Path) -> Result<(), Failure> {
     let at = |source| WriteError { file: gtkwave.program.clone(), source };
     let mut said = tempfile::tempfile().map_err(at)?;
     let mut command = std::process::Command::new(&gtkwave.program);
-    command.arg(view).stdin(Stdio::null()).stdout(Stdio::null());
-    let mut child = command.stderr(said.try_clone().map_err(at)?).spawn().map_err(at)?;
-    let start = Instant::now();
-    let status = loop {
-        match child.try_wait().map_err(at)? {
-            None if start.elapsed() < PATIENCE => std::thread::sleep(PATIENCE / 20),
-            status => break status,
-        }
-    };
+    command.arg(view).stdout(Stdio::null()).stderr(said.try_clone().map_err(at)?);
+    let status = Process::new(GTKWAVE.program, &mut command).launch(PATIENCE);
+    let status = status.map_err(|error| Failure::Input(error.to_string()))?;
     let Some(status) = status else { return Ok(()) };
     let mut text = String::new();
     let _ = said.rewind().and_then(|()| said.read_to_string(&mut text));

@@ -8,7 +8,6 @@
 //! is slower by a clock counts as different.
 
 use super::netlist::{Mutant, Netlist, DESIGN};
-use crate::flow::STOPPED;
 use crate::synth::SynthError;
 use crate::tools::{YOSYS, YOSYS_ABC};
 use std::fmt::Write;
@@ -49,9 +48,10 @@ impl Netlist {
             format!("read_aiger {file}; strash; lcorr; scorr; pdr -T {SECONDS}; print_status");
         // Registers alone first: where those of both are the same, so are their multipliers. Merging has no
         // limit of its own.
-        let mut command = self.work.limited(&abc, 2 * SECONDS);
-        let output = self.work.output(command.args(["-c", &proof]))?;
-        if output.status.code() == Some(STOPPED) {
+        let mut command = self.work.command(&abc);
+        command.args(["-c", &proof]);
+        let output = self.work.limited(&YOSYS_ABC, &mut command, 2 * SECONDS)?;
+        if output.is_stopped {
             return Ok(Verdict::Open);
         }
         let text = String::from_utf8_lossy(&output.stdout);

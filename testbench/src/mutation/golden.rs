@@ -8,6 +8,7 @@ use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use wheatstone_golden::targets::Target;
+use wheatstone_process::Process;
 
 /// Where cargo mutants works and reports, seen from the workspace's folder.
 const FOLDER: &str = "target/wheatstone/mutants";
@@ -76,8 +77,9 @@ pub fn test(
     if let Some(cargo) = cargo {
         command.env("CARGO", cargo);
     }
-    let status = command.stdout(std::io::stderr()).status();
-    let status = status.map_err(|error| failed(error.to_string()))?;
+    // Each test has a limit of its own; there are hundreds.
+    let process = Process::new(CARGO_MUTANTS.program, &mut command).on(name).without_limit();
+    let status = process.show().map_err(|error| failed(error.to_string()))?;
     // 2 and 3: mutants were missed, or hung; everything else but 0 is no result.
     if !matches!(status.code(), Some(0 | 2 | 3)) {
         return Err(failed(format!("cargo mutants ended with {status}")));

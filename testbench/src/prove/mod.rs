@@ -143,7 +143,7 @@ const DEEP: [(&str, u32); 5] = [
     ("p_stable", 18),
 ];
 
-/// Seconds after which a prover is stopped.
+/// Seconds of processor time after which a prover is stopped.
 const LIMIT: u32 = 60;
 
 /// Module, label and parameters of a build.
@@ -541,8 +541,8 @@ impl Task<'_> {
         let mut command = self.folder.command(&self.programs.yosys);
         self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
         let proof = "read_aiger miter.aig; strash; comb; fraig; iprove; print_status";
-        let mut command = self.folder.limited(&self.programs.abc, LIMIT);
-        let output = self.folder.output(command.args(["-c", proof]))?;
+        let mut command = self.folder.command(&self.programs.abc);
+        let output = self.folder.limited(&YOSYS_ABC, command.args(["-c", proof]), LIMIT)?;
         Ok(String::from_utf8_lossy(&output.stdout).contains("Status = 1 "))
     }
 
@@ -553,10 +553,9 @@ impl Task<'_> {
         let script = format!("read_ilang base.il; {deleted}write_smt2 -wires model.smt2");
         let mut command = self.folder.command(&self.programs.yosys);
         self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
-        // It has no limit of its own, and would leave its solver behind if it alone were stopped.
-        let mut command = self.folder.limited(&self.programs.smtbmc, LIMIT);
+        let mut command = self.folder.command(&self.programs.smtbmc);
         command.args(["-s", "yices"]).args(mode).args(["-t", &clocks.to_string(), "model.smt2"]);
-        let output = self.folder.output(&mut command)?;
+        let output = self.folder.limited(&YOSYS_SMTBMC, &mut command, LIMIT)?;
         let text = String::from_utf8_lossy(&output.stdout);
         let step = step(&text).unwrap_or(0);
         if text.contains("Status: PASSED") {
@@ -576,12 +575,9 @@ impl Task<'_> {
             }
             return Ok(Run::Failed { step, labels });
         }
-        match output.status.code() {
-            Some(flow::STOPPED) => Ok(Run::Stopped(step)),
-            _ => {
-                let text = [output.stdout, output.stderr].concat();
-                Err(self.folder.failed(&YOSYS_SMTBMC, &String::from_utf8_lossy(&text)))
-            }
+        match output.is_stopped {
+            true => Ok(Run::Stopped(step)),
+            false => Err(self.folder.failed(&YOSYS_SMTBMC, &output.said())),
         }
     }
 }

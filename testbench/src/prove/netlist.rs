@@ -45,18 +45,15 @@ impl Prover {
         let keep = |found: &Equivalence| found.points > 0;
         flow::cached(&self.cache, module, &sources, &inputs, keep, |folder| {
             let started = Instant::now();
-            let mut command = folder.limited(&yosys, LIMIT);
-            let output = folder.output(command.args(["-q", "-p", &script]))?;
-            let (points, open) = match output.status.code() {
-                Some(flow::STOPPED) => (0, 0),
-                Some(0) => {
-                    let stat = folder.read("stat")?;
-                    points(&stat).ok_or_else(|| folder.failed(&YOSYS, &stat))?
-                }
-                _ => {
-                    let text = [output.stdout, output.stderr].concat();
-                    return Err(folder.failed(&YOSYS, &String::from_utf8_lossy(&text)));
-                }
+            let mut command = folder.command(&yosys);
+            let output = folder.limited(&YOSYS, command.args(["-q", "-p", &script]), LIMIT)?;
+            let (points, open) = if output.is_stopped {
+                (0, 0)
+            } else if output.succeeded() {
+                let stat = folder.read("stat")?;
+                points(&stat).ok_or_else(|| folder.failed(&YOSYS, &stat))?
+            } else {
+                return Err(folder.failed(&YOSYS, &output.said()));
             };
             Ok(Equivalence { points, open, seconds: tenths(started) })
         })
