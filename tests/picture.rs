@@ -3,9 +3,8 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use wheatstone_golden::picture::{
-    write_file, write_png, write_wiggle, Composite, Rgb, RgbImage, Views,
-};
+use wheatstone_golden::files;
+use wheatstone_golden::picture::{write_png, write_wiggle, Composite, Rgb, RgbImage, Views};
 
 fn noise(width: u32, height: u32, seed: u64) -> RgbImage {
     let mut random = fastrand::Rng::with_seed(seed);
@@ -76,7 +75,7 @@ fn a_wiggle_is_an_animation_of_both_views() {
 fn a_failed_write_leaves_nothing_and_names_the_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("file");
-    write_file(&file, b"content").expect("written");
+    files::write(&file, b"content").expect("written");
     let taken = folder.path().join("taken.png");
     fs::create_dir(&taken).expect("a folder");
     let picture = noise(4, 4, 1);
@@ -97,7 +96,7 @@ fn a_failed_write_leaves_nothing_and_names_the_file() {
 fn a_missing_folder_is_made() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("reports/today/report.json");
-    write_file(&file, b"content").expect("written");
+    files::write(&file, b"content").expect("written");
     assert_eq!(fs::read(&file).expect("a file"), b"content");
 }
 

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 use wheatstone_studies::reproduce::{json, run, Event, Summary};
 use wheatstone_studies::{Check, Experiment, Report, Row, StudyError, Table, EXPERIMENTS};
 use wheatstone_tests::folder;
@@ -16,7 +16,7 @@ fn report(name: &str, rows: Vec<Row>) -> Report {
 /// Two figures that hold, of which one has an erratum, one that differs, one that is a trend
 /// and one that is quoted.
 fn mixed(out: &Path) -> Result<Report, StudyError> {
-    write_file(&out.join("plot.svg"), b"<svg/>")?;
+    files::write(&out.join("plot.svg"), b"<svg/>")?;
     let rows = vec![
         Row::new("whole", 5.0, 0, Check::Digits).printed(5.0),
         Row::new("wrong in print", 1.5, 2, Check::Digits).printed(1.67).corrected(1.5, "1 + II"),
@@ -28,8 +28,8 @@ fn mixed(out: &Path) -> Result<Report, StudyError> {
 }
 
 fn unwritable(out: &Path) -> Result<Report, StudyError> {
-    write_file(&out.join("none"), b"")?;
-    write_file(&out.join("none/plot.svg"), b"")?;
+    files::write(&out.join("none"), b"")?;
+    files::write(&out.join("none/plot.svg"), b"")?;
     unreachable!("a file is no folder")
 }
 

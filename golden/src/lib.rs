@@ -20,6 +20,8 @@ pub mod direct;
 pub mod document;
 #[cfg(feature = "std")]
 pub mod faces;
+#[cfg(feature = "std")]
+pub mod files;
 pub mod formats;
 #[cfg(feature = "std")]
 pub mod frame;

@@ -24,7 +24,7 @@ pub use report::{Check, Report, Row, Table, Verdict};
 
 use std::path::Path;
 use thiserror::Error;
-use wheatstone_golden::picture::WriteError;
+use wheatstone_golden::files::WriteError;
 use wheatstone_golden::scene::SceneError;
 use wheatstone_golden::visibility::renderer::RendererError;
 use wheatstone_golden::visibility::VisibilityError;

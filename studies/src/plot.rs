@@ -3,7 +3,7 @@
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use std::path::Path;
-use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::files::{self, WriteError};
 
 /// Width and height of a plot in pixels.
 const SIZE: (u32, u32) = (800, 500);
@@ -69,7 +69,7 @@ pub fn lines(
         source: std::io::Error::other(error.to_string()),
     })?;
     // It says nothing, and there are programs that fill curves for it.
-    write_file(file, picture.replace(" opacity=\"1\"", "").as_bytes())
+    files::write(file, picture.replace(" opacity=\"1\"", "").as_bytes())
 }
 
 type Drawn = Result<(), Box<dyn std::error::Error>>;

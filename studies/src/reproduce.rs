@@ -6,7 +6,7 @@ use crate::{Experiment, Report, StudyError, Verdict};
 use serde_json::json;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::files::{self, WriteError};
 
 /// What is told while experiments run.
 #[derive(Clone, Copy, Debug)]
@@ -65,8 +65,8 @@ pub fn run(
         let start = Instant::now();
         let report = (experiment.run)(&folder)?;
         let tables: String = report.tables.iter().map(|table| format!("{table}\n")).collect();
-        write_file(&folder.join("tables.txt"), tables.as_bytes())?;
-        write_file(&folder.join("report.json"), format!("{:#}\n", report.json()).as_bytes())?;
+        files::write(&folder.join("tables.txt"), tables.as_bytes())?;
+        files::write(&folder.join("report.json"), format!("{:#}\n", report.json()).as_bytes())?;
         tell(Event::End(&report, start.elapsed()));
         reports.push(report);
     }

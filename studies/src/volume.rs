@@ -6,7 +6,7 @@ use crate::plot::{self, Series};
 use serde::Serialize;
 use serde_json::{json, Value};
 use std::path::{Path, PathBuf};
-use wheatstone_golden::picture::WriteError;
+use wheatstone_golden::files::WriteError;
 use wheatstone_golden::projection::{Clipping, Device, FieldOfView, Kind, Range, Screen, Viewer};
 use wheatstone_golden::scene::vector::turn;
 use wheatstone_golden::scene::{Extent, Rig, Scene, SceneError};

@@ -16,8 +16,8 @@ use std::fmt::Write;
 use std::path::Path;
 use thiserror::Error;
 use wheatstone_golden::config::Config;
+use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::formats::Eye;
-use wheatstone_golden::picture::{write_file, WriteError};
 use wheatstone_golden::pipeline::{Edges, PrimaryBeat, Setup};
 use wheatstone_golden::primary::{Primary, Sink};
 use wheatstone_golden::scene::vector::{add, cross, dot, scale, unit, Vec3};
@@ -314,7 +314,7 @@ impl Recorded {
     /// Writes them.
     pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
         let text = serde_json::to_string_pretty(self).unwrap_or_default();
-        write_file(&workspace.join(FILE), format!("{text}\n").as_bytes())
+        files::write(&workspace.join(FILE), format!("{text}\n").as_bytes())
     }
 }
 

@@ -1,6 +1,5 @@
 //! Flows of open tools on the Verilog of a module: in a temporary folder, with results kept by content.
 
-use crate::scratch::Scratch;
 use crate::sources::Sources;
 use crate::tools::{self, Found, Tool, ToolError};
 use crate::verilate::{entry, short};
@@ -11,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 use thiserror::Error;
-use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::files::{self, Scratch, WriteError};
 use wheatstone_process::{Output, Process, ProcessError};
 
 /// Why a flow of open tools came to no result.
@@ -98,7 +97,7 @@ pub(crate) fn cached<T: Serialize + DeserializeOwned>(
     let found = find(&Folder::of(cache, module, sources)?)?;
     if keep(&found) {
         let text = serde_json::to_vec(&found).unwrap_or_default();
-        write_file(&file, &text)?;
+        files::write(&file, &text)?;
     }
     Ok(found)
 }
@@ -126,7 +125,7 @@ impl Folder {
 
     /// Writes a file.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<(), FlowError> {
-        Ok(write_file(&self.folder.path().join(name), content)?)
+        Ok(files::write(&self.folder.path().join(name), content)?)
     }
 
     /// The text of a file.

@@ -28,7 +28,6 @@ mod ports;
 pub mod prove;
 pub mod regression;
 pub mod replay;
-mod scratch;
 pub mod settings;
 mod shim;
 mod sources;

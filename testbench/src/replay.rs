@@ -1,7 +1,6 @@
 //! Vector packs replayed outside the co-simulation: in Icarus, in cocotb, and on gate-level netlists.
 
 use crate::pack::Checked;
-use crate::scratch::Scratch;
 use crate::sources;
 use crate::synth::{Cells, SynthError, Synthesiser};
 use crate::tools::{self, Found, Tool, ToolError, COCOTB, ICARUS, VVP};
@@ -12,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 use thiserror::Error;
+use wheatstone_golden::files::Scratch;
 use wheatstone_process::{Output, Process, ProcessError};
 
 /// How a pack is replayed.

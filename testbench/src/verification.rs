@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
-use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::targets::Target;
 
 /// Where it is in the workspace.
@@ -66,7 +66,7 @@ impl Record {
     /// Writes it.
     pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
         let text = serde_json::to_string_pretty(self).unwrap_or_default();
-        write_file(&workspace.join(FILE), format!("{text}\n").as_bytes())
+        files::write(&workspace.join(FILE), format!("{text}\n").as_bytes())
     }
 
     /// Takes over what was covered.

@@ -10,7 +10,6 @@ use crate::cover::Collector;
 use crate::layout::{Layout, Probe};
 use crate::model::{Library, LoadError};
 use crate::ports::{self, PortError};
-use crate::scratch::Scratch;
 use crate::shim::{self, PREFIX};
 use crate::sources::{self, Sources};
 use crate::tools::{ToolError, Toolchain};
@@ -22,6 +21,7 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use thiserror::Error;
+use wheatstone_golden::files::{publish, Scratch};
 use wheatstone_golden::interface::Interface;
 use wheatstone_process::{Process, ProcessError};
 
@@ -440,7 +440,7 @@ fn write(path: &Path, content: &[u8]) -> Result<(), BuildError> {
 }
 
 fn persist(temporary: Scratch, to: &Path) -> Result<(), BuildError> {
-    temporary.persist(to).map_err(|source| BuildError::Cache { path: to.to_owned(), source })
+    publish(temporary, to).map_err(|e| BuildError::Cache { path: e.file, source: e.source })
 }
 
 /// A lock between threads and processes, given back when dropped.

@@ -8,7 +8,6 @@
 
 use crate::job::TraceWindow;
 use crate::layout::Probe;
-use crate::scratch::Scratch;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
@@ -16,6 +15,7 @@ use std::io::{self, Read as _, Write as _};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+use wheatstone_golden::files::Scratch;
 use wheatstone_golden::interface::{Direction, Field, Interface, Kind, Stream};
 
 /// Room that a dump must have while it is written; the largest take a hundredth of it.

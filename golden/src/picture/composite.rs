@@ -1,6 +1,7 @@
 //! Two views in one picture: for glasses, for free viewing, for print, and as displays store them.
 
-use super::{write_png_at, write_wiggle, Rgb, RgbImage, WriteError};
+use super::{write_png_at, write_wiggle, Rgb, RgbImage};
+use crate::files::WriteError;
 use std::path::Path;
 
 /// The pictures of the two eyes.

@@ -1,53 +1,10 @@
-//! Files that are either whole or not there.
+//! Pictures as PNG files.
 
 use super::{RgbImage, Views};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use crate::files::{write, WriteError};
+use std::path::Path;
 
-/// Why a file was not written.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be written: {source}", .file.display())]
-pub struct WriteError {
-    /// The file.
-    pub file: PathBuf,
-    /// Why.
-    pub source: std::io::Error,
-}
-
-/// Writes a file: under a temporary name beside it, then renamed. Folders that are missing are made, so that
-/// nobody loses what took long for want of one.
-///
-/// If anything fails, or the program is killed, a file of that name is as it was before, or not
-/// there. Only a kill can leave the temporary file, `.NAME.XXXXXX.part`.
-pub fn write_file(file: &Path, content: &[u8]) -> Result<(), WriteError> {
-    let write = || -> std::io::Result<()> {
-        let folder = match file.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        let Some(name) = file.file_name() else {
-            return Err(std::io::Error::other("not the name of a file"));
-        };
-        std::fs::create_dir_all(folder)?;
-        let mut builder = tempfile::Builder::new();
-        let prefix = format!(".{}.", name.to_string_lossy());
-        builder.prefix(&prefix).suffix(".part");
-        #[cfg(unix)]
-        {
-            // As for any new file: the umask decides.
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        let mut temporary = builder.tempfile_in(folder)?;
-        temporary.write_all(content)?;
-        temporary.flush()?;
-        temporary.persist(file).map_err(|e| e.error)?;
-        Ok(())
-    };
-    write().map_err(|source| WriteError { file: file.to_owned(), source })
-}
-
-/// Writes a PNG file, as [`write_file`] does.
+/// Writes a PNG file, as [`write()`] writes any file.
 pub fn write_png(file: &Path, picture: &RgbImage) -> Result<(), WriteError> {
     write_png_at(file, picture, None)
 }
@@ -72,7 +29,7 @@ pub fn write_png_at(
         writer.finish()?;
         Ok(bytes)
     };
-    write_file(file, &encode().map_err(|e| encoding(file, e))?)
+    write(file, &encode().map_err(|e| encoding(file, e))?)
 }
 
 /// Writes an animated PNG file that shows the two pictures in turn, `milliseconds` each; programs
@@ -90,7 +47,7 @@ pub fn write_wiggle(file: &Path, views: &Views, milliseconds: u16) -> Result<(),
         writer.finish()?;
         Ok(bytes)
     };
-    write_file(file, &encode().map_err(|e| encoding(file, e))?)
+    write(file, &encode().map_err(|e| encoding(file, e))?)
 }
 
 fn encoding(file: &Path, error: impl std::error::Error + Send + Sync + 'static) -> WriteError {

@@ -18,11 +18,10 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use thiserror::Error;
+use wheatstone_golden::files::WriteError;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::{Frame, NO_ID};
-use wheatstone_golden::picture::{
-    frame_picture, side_by_side, write_png, Rgb, RgbImage, WriteError,
-};
+use wheatstone_golden::picture::{frame_picture, side_by_side, write_png, Rgb, RgbImage};
 use wheatstone_golden::primary::Counts;
 use wheatstone_golden::quality::Quality;
 use wheatstone_golden::work::{Unmetered, Work};

@@ -4,7 +4,7 @@ use super::*;
 use crate::baseline::{
     self, area_table, row_tables, Areas, Baseline, Recorded, Row, Rows, SIZES, TURNED,
 };
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 
 #[derive(Debug, Args)]
 pub(super) struct BaselineArgs {
@@ -71,7 +71,7 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
             "sizes": rows.sizes,
             "scenes": rows.scenes,
         });
-        write_file(file, format!("{content:#}\n").as_bytes())?;
+        files::write(file, format!("{content:#}\n").as_bytes())?;
     }
     match (args.record, args.check) {
         (true, _) => record(&super::root()?, &args.config, rows).map(|()| OK),

@@ -1,7 +1,7 @@
 //! `wheatstone compare`.
 
 use super::*;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 use wheatstone_golden::setup::Arrangement;
 use wheatstone_studies::compare::{compare, json, table, Grouped, Method};
 use wheatstone_studies::prepared::Prepared;
@@ -59,7 +59,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
             "drawn": drawn.len(),
             "methods": json(&outcomes),
         });
-        write_file(file, format!("{content:#}\n").as_bytes())?;
+        files::write(file, format!("{content:#}\n").as_bytes())?;
     }
     Ok(OK)
 }

@@ -2,10 +2,11 @@
 
 use super::*;
 use crate::regression::{self, command_line, counted, Entry, Event, NamedScene, Plan, Waves};
-use crate::scratch::Tidy;
 use std::sync::Mutex;
+use wheatstone_golden::files;
+use wheatstone_golden::files::Tidy;
 use wheatstone_golden::formats::Eye;
-use wheatstone_golden::picture::{frame_picture, write_file, write_png};
+use wheatstone_golden::picture::{frame_picture, write_png};
 
 /// Scenes that the systems draw where none is named, and their sizes.
 const SCENES_AT_FULL_SIZE: [&str; 2] = ["teapot", "room"];
@@ -116,11 +117,11 @@ fn unshown(entry: &Entry) -> Option<String> {
 /// Writes reports and pictures.
 fn write(args: &CosimArgs, entries: &[Entry], command: &str, out: &Path) -> Result<(), Failure> {
     if let Some(file) = &args.json {
-        write_file(file, regression::json(entries, command).as_bytes())?;
+        files::write(file, regression::json(entries, command).as_bytes())?;
     }
     if let Some(file) = &args.junit {
         let xml = regression::junit(entries).map_err(|error| Failure::Input(error.to_string()))?;
-        write_file(file, xml.as_bytes())?;
+        files::write(file, xml.as_bytes())?;
     }
     for entry in entries {
         for file in pictures(entry, out)? {

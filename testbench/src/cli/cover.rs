@@ -4,7 +4,7 @@ use super::*;
 use crate::cover::{self, Counts, Report, Waiver};
 use crate::regression::{Event, Plan, Waves};
 use std::fs;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 
 /// Empty bins and missing points that are named on the terminal.
 const SHOWN: usize = 40;
@@ -60,7 +60,7 @@ pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
     say!("{}", cover::table(&report, bins));
     let command = std::env::args().collect::<Vec<_>>().join(" ");
     if let Some(file) = &args.json {
-        write_file(file, cover::json(&report, bins, &command).as_bytes())?;
+        files::write(file, cover::json(&report, bins, &command).as_bytes())?;
     }
     if let Some(out) = &args.out {
         annotate(out, &rtl, &counts, &report)?;
@@ -119,7 +119,7 @@ fn annotate(out: &Path, rtl: &Path, counts: &Counts, report: &Report) -> Result<
         let text = fs::read_to_string(&source)
             .map_err(|error| Failure::Input(format!("{}: {error}", source.display())))?;
         let file = out.join(format!("{name}.txt"));
-        write_file(&file, cover::annotated(name, &text, counts, report).as_bytes())?;
+        files::write(&file, cover::annotated(name, &text, counts, report).as_bytes())?;
     }
     Ok(())
 }

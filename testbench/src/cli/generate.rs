@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::generated::Generated;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 
 #[derive(Debug, Args)]
 pub(super) struct GenerateArgs {
@@ -29,7 +29,7 @@ pub(super) fn run(args: &GenerateArgs) -> Result<u8, Failure> {
             say!("{path}: not current; run: wheatstone generate");
             status = MISMATCH;
         } else {
-            write_file(&file, renewed.as_bytes())?;
+            files::write(&file, renewed.as_bytes())?;
             say!("{path}: written");
         }
     }

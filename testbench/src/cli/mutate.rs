@@ -6,7 +6,7 @@ use crate::mutation::{
     golden, is_usual, regression, usual_config, Fate, Mutated, Tested, COUNT, SEED,
 };
 use crate::synth::Synthesiser;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 
 /// Most mutants of a target: the netlist chooses by 16 bits.
 const MOST: i64 = 60_000;
@@ -117,7 +117,7 @@ pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
             "format": "wheatstone-mutation/1",
             "targets": targets.collect::<Vec<_>>(),
         });
-        write_file(file, format!("{content:#}\n").as_bytes())?;
+        files::write(file, format!("{content:#}\n").as_bytes())?;
     }
     if args.record {
         say!("{FILE}: written; now run: wheatstone generate");

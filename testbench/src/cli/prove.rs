@@ -3,11 +3,11 @@
 use super::*;
 use crate::prove::record::{self, shown, Clocks, Compared, Proved, Record, Whole};
 use crate::prove::{name, properties, Bug, Catch, Effort, Prover, Verdict, BUGS};
-use crate::scratch::Scratch;
 use rayon::prelude::*;
 use std::time::Instant;
 use wheatstone_golden::config::Config;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
+use wheatstone_golden::files::Scratch;
 
 #[derive(Debug, Args)]
 pub(super) struct ProveArgs {
@@ -269,7 +269,7 @@ fn write_json(
         "command": std::env::args().collect::<Vec<_>>().join(" "),
         name: entries,
     });
-    Ok(write_file(file, format!("{content:#}\n").as_bytes())?)
+    Ok(files::write(file, format!("{content:#}\n").as_bytes())?)
 }
 
 /// Writes into the record of the workspace.

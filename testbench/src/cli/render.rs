@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::regression::drawn_line;
-use crate::scratch::Scratch;
+use wheatstone_golden::files::Scratch;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::NO_ID;
 use wheatstone_golden::picture::{

@@ -8,7 +8,7 @@ use crate::replay::{ReplayError, Replayed, Replayer, Way};
 use crate::synth::Synthesiser;
 use crate::verification::Replay;
 use rayon::prelude::*;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 
 /// Random beats of a pack: what the netlist of a system takes in a minute or two.
 const BEATS: u64 = 1_000;
@@ -137,7 +137,7 @@ pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
     let results = results?;
     print_table(&packs, &args.ways, &results);
     if let Some(file) = &args.json {
-        write_file(file, json(&results).as_bytes())?;
+        files::write(file, json(&results).as_bytes())?;
     }
     if args.record {
         update_record(|record| {

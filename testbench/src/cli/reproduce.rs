@@ -1,7 +1,7 @@
 //! `wheatstone reproduce`.
 
 use super::*;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 use wheatstone_studies::reproduce::{json, run as run_experiments, Event, Summary};
 use wheatstone_studies::{Experiment, EXPERIMENTS};
 
@@ -51,7 +51,7 @@ pub(super) fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
     let command = std::env::args().collect::<Vec<_>>().join(" ");
     let content = json(&reports, &command);
     for file in [Some(&args.out.join("reproduce.json")), args.json.as_ref()].into_iter().flatten() {
-        write_file(file, content.as_bytes())?;
+        files::write(file, content.as_bytes())?;
     }
     for row in reports.iter().flat_map(|report| report.differing()) {
         say!("DIFFERS {}", row.what);

@@ -1,7 +1,7 @@
 //! `wheatstone rig`.
 
 use super::*;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 use wheatstone_golden::scene::RigFile;
 
 const HELP: &str =
@@ -54,7 +54,7 @@ pub(super) fn run(args: &RigArgs) -> Result<u8, Failure> {
         let mut content = volume.json(at);
         content["scene"] = name.into();
         content["command"] = std::env::args().collect::<Vec<_>>().join(" ").into();
-        write_file(file, format!("{content:#}\n").as_bytes())?;
+        files::write(file, format!("{content:#}\n").as_bytes())?;
     }
     Ok(OK)
 }

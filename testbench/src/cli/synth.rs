@@ -5,7 +5,7 @@ use crate::synth::record::{self, published, Entry, Record};
 use crate::synth::{Figure, Synthesiser, Tech};
 use rayon::prelude::*;
 use wheatstone_golden::config::Config;
-use wheatstone_golden::picture::write_file;
+use wheatstone_golden::files;
 
 #[derive(Debug, Args)]
 pub(super) struct SynthArgs {
@@ -72,7 +72,7 @@ pub(super) fn run(args: &SynthArgs) -> Result<u8, Failure> {
             "command": std::env::args().collect::<Vec<_>>().join(" "),
             "measured": entries,
         });
-        write_file(file, format!("{content:#}\n").as_bytes())?;
+        files::write(file, format!("{content:#}\n").as_bytes())?;
     }
     match (args.record, args.check) {
         (true, _) => write_record(&entries).map(|()| OK),

@@ -2,11 +2,11 @@
 
 use super::*;
 use crate::regression::{command_line, record_waves, Focus};
-use crate::scratch::Tidy;
 use crate::tools::GTKWAVE;
 use std::io::{Read, Seek};
 use std::process::Stdio;
 use std::time::Duration;
+use wheatstone_golden::files::Tidy;
 use wheatstone_golden::formats::Eye;
 use wheatstone_process::Process;
 

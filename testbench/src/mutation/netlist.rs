@@ -7,8 +7,8 @@ use crate::tools::{Found, YOSYS};
 use serde::Serialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
+use wheatstone_golden::files::WriteError;
 use wheatstone_golden::interface::{Field, Interface, Kind};
-use wheatstone_golden::picture::WriteError;
 
 /// The input that chooses the mutant, and its width.
 const SELECT: &str = "mutsel";

@@ -6,7 +6,7 @@ use crate::synth::record::{read_record, RecordError};
 use serde::{Deserialize, Serialize};
 use std::fmt::{Display, Write};
 use std::path::Path;
-use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::targets::Target;
 
 /// Where the scores are in the workspace.
@@ -121,7 +121,7 @@ impl Scores {
     pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
         let lines = self.0.iter().map(|score| serde_json::to_string(score).unwrap_or_default());
         let text = format!("[\n{}\n]\n", lines.collect::<Vec<_>>().join(",\n"));
-        write_file(&workspace.join(FILE), text.as_bytes())
+        files::write(&workspace.join(FILE), text.as_bytes())
     }
 
     /// Puts scores in the place of older ones.

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::cases::Case;
-use crate::scratch::Scratch;
 use std::fs;
 use std::path::{Path, PathBuf};
+use wheatstone_golden::files::{publish, Scratch};
 use wheatstone_golden::interface::Table;
 
 /// What was written.
@@ -43,14 +43,11 @@ pub fn rtl_hash(rtl: &Path, module: &str) -> Result<String, PackError> {
 
 /// Puts a finished folder in the place of an older one.
 fn replace(finished: Scratch, folder: &Path) -> Result<(), PackError> {
-    if folder.exists() {
-        if !folder.join(MANIFEST).exists() {
-            let source = std::io::Error::other("exists and is no vector pack; it is left alone");
-            return Err(PackError::File { path: folder.into(), source });
-        }
-        fs::remove_dir_all(folder).map_err(PackError::at(folder))?;
+    if folder.exists() && !folder.join(MANIFEST).exists() {
+        let source = std::io::Error::other("exists and is no vector pack; it is left alone");
+        return Err(PackError::File { path: folder.into(), source });
     }
-    finished.persist(folder).map_err(PackError::at(folder))
+    publish(finished, folder).map_err(|e| PackError::File { path: e.file, source: e.source })
 }
 
 fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manifest, PackError> {

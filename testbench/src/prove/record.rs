@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
-use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::files::{self, WriteError};
 
 /// Where it is in the workspace.
 pub const FILE: &str = "formal/record.json";
@@ -133,7 +133,7 @@ impl Record {
             lines(&self.proofs),
             lines(&self.netlists)
         );
-        write_file(&workspace.join(FILE), text.as_bytes())
+        files::write(&workspace.join(FILE), text.as_bytes())
     }
 
     /// Puts entries in the place of older ones; of a module with new proofs all older ones go.

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use wheatstone_golden::config::Config;
-use wheatstone_golden::picture::{write_file, WriteError};
+use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::targets::Target;
 
 /// Where it is in the workspace.
@@ -124,7 +124,7 @@ impl Record {
     pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
         let lines = self.0.iter().map(|entry| serde_json::to_string(entry).unwrap_or_default());
         let text = format!("[\n{}\n]\n", lines.collect::<Vec<_>>().join(",\n"));
-        write_file(&workspace.join(FILE), text.as_bytes())
+        files::write(&workspace.join(FILE), text.as_bytes())
     }
 
     /// Puts entries in the place of older ones.

@@ -1,20 +1,25 @@
-//! Folders that are not left behind: temporary ones, also of killed processes, and empty ones.
+//! Files and folders that are not left behind: temporary ones, also of killed processes, and empty ones.
 
-use std::fs::{self, File, Permissions};
+use super::lock::within;
+use super::WriteError;
+use std::fs::{self, File, OpenOptions, Permissions};
 use std::io;
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::fs::{MetadataExt, OpenOptionsExt, PermissionsExt};
 use std::path::{Path, PathBuf};
-use tempfile::TempDir;
-use wheatstone_golden::picture::WriteError;
+use std::time::Duration;
+use tempfile::{NamedTempFile, TempDir};
 
 const PREFIX: &str = ".wheatstone-";
 const SUFFIX: &str = ".part";
+/// Locks of temporary files and folders are held for moments by anybody else.
+const LIMIT: Duration = Duration::from_secs(30);
 
 /// A temporary folder of this process alone, removed when dropped.
 ///
 /// It is locked as long as its owner lives; one that is not locked belongs to nobody, and goes when
 /// the next is made beside it.
-pub(crate) struct Scratch {
+#[derive(Debug)]
+pub struct Scratch {
     folder: TempDir,
     _lock: File,
 }
@@ -31,13 +36,13 @@ impl Scratch {
     pub fn new(parent: &Path) -> io::Result<Scratch> {
         sweep(parent);
         loop {
-            let folder = tempfile::Builder::new()
-                .prefix(PREFIX)
-                .suffix(SUFFIX)
-                // As for any new folder: the umask decides.
-                .permissions(Permissions::from_mode(0o777))
-                .tempdir_in(parent)?;
-            match lock(folder.path()) {
+            // As for any new folder: the umask decides.
+            let mode = Permissions::from_mode(0o777);
+            let mut builder = tempfile::Builder::new();
+            let folder =
+                builder.prefix(PREFIX).suffix(SUFFIX).permissions(mode).tempdir_in(parent)?;
+            let lock = File::open(folder.path());
+            match lock.and_then(|lock| own(&lock, folder.path()).map(|_| lock)) {
                 Ok(lock) => return Ok(Scratch { folder, _lock: lock }),
                 // Another process took it for one that belongs to nobody.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
@@ -51,45 +56,72 @@ impl Scratch {
         self.folder.path()
     }
 
-    /// Gives the folder its name for good.
-    pub fn persist(self, name: &Path) -> io::Result<()> {
-        fs::rename(self.path(), name)?;
+    /// The folder got a name for good, and stays.
+    pub(super) fn keep(self) {
         let _ = self.folder.keep();
-        Ok(())
     }
 }
 
-/// Locks a folder that is still there then.
-fn lock(folder: &Path) -> io::Result<File> {
-    let file = File::open(folder)?;
-    // Where the file system has no locks, nobody sweeps either.
-    let _ = file.lock();
-    fs::metadata(folder)?;
-    Ok(file)
-}
-
-/// Removes the temporary folders of dead processes. What cannot be removed now, as a child of the dead
-/// may still write there, goes another time.
-fn sweep(parent: &Path) {
-    for entry in fs::read_dir(parent).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-        if is_folder && name.starts_with(PREFIX) && name.ends_with(SUFFIX) {
-            let _ = remove_if_free(&entry.path());
+/// A new temporary file, locked as a [`Scratch`] is.
+pub(super) fn file(parent: &Path) -> io::Result<NamedTempFile> {
+    sweep(parent);
+    loop {
+        let mode = Permissions::from_mode(0o666);
+        let mut builder = tempfile::Builder::new();
+        let file = builder.prefix(PREFIX).suffix(SUFFIX).permissions(mode).tempfile_in(parent)?;
+        match own(file.as_file(), file.path()) {
+            Ok(()) => return Ok(file),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
         }
     }
 }
 
-/// Removes a folder that nobody has locked; keeps it locked meanwhile, so that nobody takes it for new.
-fn remove_if_free(folder: &Path) -> io::Result<()> {
-    let file = File::open(folder)?;
+/// Whether a name is that of something temporary.
+pub(super) fn is_temporary(name: &str) -> bool {
+    name.starts_with(PREFIX) && name.ends_with(SUFFIX)
+}
+
+/// Locks what is open; an error if it is no longer what has that name.
+pub(super) fn own(opened: &File, path: &Path) -> io::Result<()> {
+    // Where the file system has no locks, nobody sweeps either. One that is not given back is not waited for.
+    if let Ok(false) = within(opened, LIMIT) {
+        return Err(io::Error::new(io::ErrorKind::TimedOut, "another process has it locked"));
+    }
+    let (opened, there) = (opened.metadata()?, fs::symlink_metadata(path)?);
+    if (opened.dev(), opened.ino()) == (there.dev(), there.ino()) {
+        Ok(())
+    } else {
+        Err(io::ErrorKind::NotFound.into())
+    }
+}
+
+/// Removes what dead processes left. What cannot be removed now, as a child of the dead may still write
+/// there, goes another time.
+fn sweep(parent: &Path) {
+    for entry in fs::read_dir(parent).into_iter().flatten().flatten() {
+        if is_temporary(&entry.file_name().to_string_lossy()) {
+            let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+            let _ = remove_if_free(&entry.path(), is_folder);
+        }
+    }
+}
+
+/// Removes what nobody has locked; keeps it locked meanwhile, so that nobody takes it for new.
+fn remove_if_free(path: &Path, is_folder: bool) -> io::Result<()> {
+    let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
+    let file = OpenOptions::new().read(true).custom_flags(flags).open(path)?;
     file.try_lock()?;
-    fs::remove_dir_all(folder)
+    if is_folder {
+        fs::remove_dir_all(path)
+    } else {
+        fs::remove_file(path)
+    }
 }
 
 /// Folders that were not there before: those that are empty are removed when this is dropped.
-pub(crate) struct Tidy(Vec<PathBuf>);
+#[derive(Debug)]
+pub struct Tidy(Vec<PathBuf>);
 
 impl Tidy {
     /// A folder that may be made, and those above it.
@@ -125,7 +157,7 @@ mod tests {
             assert_eq!(parent.path().join(name).exists(), !name.contains("dead"), "{name}");
         }
         drop(first);
-        second.persist(&parent.path().join("kept")).unwrap();
+        super::super::publish(second, &parent.path().join("kept")).unwrap();
         let left = fs::read_dir(parent.path()).unwrap().count();
         assert_eq!(left, names.len(), "one of them went, one was kept");
     }

@@ -1,0 +1,116 @@
+//! Reading what a stranger may have made.
+
+use std::fs::{self, FileType, OpenOptions};
+use std::io::{self, Read};
+use std::os::unix::fs::OpenOptionsExt;
+use std::path::{Path, PathBuf};
+
+/// Why a file was not read.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: cannot be read: {source}", .file.display())]
+pub struct ReadError {
+    /// The file.
+    pub file: PathBuf,
+    /// Why.
+    pub source: io::Error,
+}
+
+/// The bytes of a regular file of at most `limit` bytes.
+///
+/// # Errors
+/// Of a pipe, a device, a socket or a folder, without waiting for any of them; of a larger file; and of one
+/// that cannot be read.
+pub fn read(file: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    bounded(file, limit).map_err(|source| ReadError { file: file.to_owned(), source })
+}
+
+fn bounded(file: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    // Before it is opened too: opening alone can make a device do something.
+    regular(fs::metadata(file)?.file_type())?;
+    let flags = rustix::fs::OFlags::NONBLOCK | rustix::fs::OFlags::NOCTTY;
+    let opened = OpenOptions::new().read(true).custom_flags(flags.bits() as i32).open(file)?;
+    let metadata = opened.metadata()?;
+    regular(metadata.file_type())?;
+    let mut content = Vec::new();
+    if metadata.len() <= limit {
+        opened.take(limit.saturating_add(1)).read_to_end(&mut content)?;
+    }
+    if metadata.len().max(content.len() as u64) > limit {
+        let message = format!("larger than {}, the most that is read of such a file", Size(limit));
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+    }
+    Ok(content)
+}
+
+fn regular(kind: FileType) -> io::Result<()> {
+    let found = if kind.is_dir() { Some("a folder") } else { super::special(kind) };
+    found.map_or(Ok(()), |found| {
+        Err(io::Error::other(format!("expected a regular file, found {found}")))
+    })
+}
+
+/// A number of bytes in the largest unit that divides it.
+struct Size(u64);
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let units = [(30, "GiB"), (20, "MiB"), (10, "KiB")];
+        let whole = |&&(shift, _): &&(u32, &str)| self.0 != 0 && self.0.trailing_zeros() >= shift;
+        match units.iter().find(whole) {
+            Some((shift, unit)) => write!(f, "{} {unit}", self.0 >> shift),
+            None => write!(f, "{} bytes", self.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(file: &Path, limit: u64) -> String {
+        read(file, limit).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, "12345").unwrap();
+        assert_eq!(read(&file, 5).unwrap(), b"12345");
+        assert_eq!(
+            refused(&file, 4),
+            format!(
+                "{}: cannot be read: larger than 4 bytes, the most that is read of such a file",
+                file.display()
+            )
+        );
+        // A file with a hole is as large as it says.
+        fs::File::create(&file).unwrap().set_len(1 << 40).unwrap();
+        assert!(refused(&file, 64 << 20).contains("larger than 64 MiB"), "{}", refused(&file, 9));
+        // One that does not say how large it is.
+        assert!(!read(Path::new("/proc/self/status"), 1 << 20).unwrap().is_empty());
+        assert!(refused(Path::new("/proc/self/status"), 16).contains("larger than 16 bytes"));
+        assert!(refused(&folder.path().join("none"), 9).contains("No such file"));
+    }
+
+    #[test]
+    fn what_is_no_file_is_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let (pipe, socket) = (folder.path().join("pipe"), folder.path().join("socket"));
+        let status = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(status.success());
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        for (file, kind) in [
+            (pipe.as_path(), "a pipe (FIFO)"),
+            (&link, "a pipe (FIFO)"),
+            (&socket, "a socket"),
+            (folder.path(), "a folder"),
+            (Path::new("/dev/zero"), "a device"),
+        ] {
+            let text = refused(file, 1 << 20);
+            assert!(text.ends_with(&format!("expected a regular file, found {kind}")), "{text}");
+        }
+    }
+}

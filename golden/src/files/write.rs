@@ -1,0 +1,224 @@
+//! Writing a file that is whole or not there.
+
+use super::scratch::{self, Tidy};
+use rustix::event::{poll, PollFd, PollFlags, Timespec};
+use rustix::fs::OFlags;
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, Write};
+use std::os::unix::fs::{FileTypeExt, MetadataExt, OpenOptionsExt};
+use std::os::unix::net::UnixStream;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// How long a pipe, device or socket may take no byte.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Links to links that are followed, as many as Linux does.
+const LINKS: usize = 40;
+
+/// Why a file was not written.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: cannot be written: {source}", .file.display())]
+pub struct WriteError {
+    /// The file.
+    pub file: PathBuf,
+    /// Why.
+    pub source: io::Error,
+}
+
+/// Writes a file: under a temporary name beside it, to the disk, then renamed. Folders that are missing are
+/// made, so that nobody loses what took long for want of one. Of a symbolic link, the file that it leads to is
+/// replaced; a new file has the permissions that the umask leaves.
+///
+/// If anything fails, or the program is killed, a file of that name is as it was before, or not
+/// there. Only a kill can leave the temporary file, `.wheatstone-XXXXXX.part`; the next write in its folder
+/// removes it.
+///
+/// A device, pipe or socket, and the file that is standard output or error, is written to, not replaced.
+///
+/// # Errors
+/// Where the file cannot be written; of a pipe that nobody reads, and of one that takes nothing for a minute.
+pub fn write(file: &Path, content: &[u8]) -> Result<(), WriteError> {
+    put(file, content).map_err(|source| WriteError { file: file.to_owned(), source })
+}
+
+fn put(file: &Path, content: &[u8]) -> io::Result<()> {
+    let target = match fs::metadata(file) {
+        Ok(there) if there.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+        Ok(there) if is(&there, io::stdout()) => return pour(&mut io::stdout().lock(), content),
+        Ok(there) if is(&there, io::stderr()) => return pour(&mut io::stderr().lock(), content),
+        Ok(there) if !there.is_file() => return feed(file, &there, content),
+        Ok(_) if fs::symlink_metadata(file)?.is_symlink() => fs::canonicalize(file)?,
+        Ok(_) => file.to_owned(),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => led_to(file)?,
+        Err(error) => return Err(error),
+    };
+    replace(&target, content)
+}
+
+/// Whether a file is the one that an open stream writes to.
+fn is(file: &Metadata, stream: impl std::os::fd::AsFd) -> bool {
+    rustix::fs::fstat(stream).is_ok_and(|s| (s.st_dev, s.st_ino) == (file.dev(), file.ino()))
+}
+
+/// Where a link leads whose end is not there yet.
+fn led_to(file: &Path) -> io::Result<PathBuf> {
+    let mut file = file.to_owned();
+    for _ in 0..LINKS {
+        match fs::read_link(&file) {
+            Ok(next) => file = super::parent(&file).join(next),
+            Err(_) => return Ok(file),
+        }
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+fn replace(file: &Path, content: &[u8]) -> io::Result<()> {
+    if file.file_name().is_none() {
+        return Err(io::Error::other("not the name of a file"));
+    }
+    let folder = super::parent(file);
+    let _tidy = Tidy::new(folder);
+    fs::create_dir_all(folder)?;
+    let mut temporary = scratch::file(folder)?;
+    temporary.write_all(content)?;
+    temporary.as_file().sync_all()?;
+    temporary.persist(file).map_err(|error| error.error)?;
+    super::sync_folder(folder)
+}
+
+/// Writes to what is no regular file, without waiting for ever.
+fn feed(file: &Path, there: &Metadata, content: &[u8]) -> io::Result<()> {
+    if there.file_type().is_socket() {
+        let mut socket = UnixStream::connect(file)?;
+        socket.set_write_timeout(Some(PATIENCE))?;
+        return pour(&mut socket, content);
+    }
+    let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
+    let opened = OpenOptions::new().write(true).custom_flags(flags.bits() as i32).open(file);
+    let mut opened = opened.map_err(|error| match error.raw_os_error() {
+        Some(code) if code == rustix::io::Errno::NXIO.raw_os_error() => {
+            io::Error::other("no program reads from it")
+        }
+        _ => error,
+    })?;
+    let mut rest = content;
+    while !rest.is_empty() {
+        match opened.write(rest) {
+            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+            Ok(written) => rest = &rest[written..],
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) if error.kind() == io::ErrorKind::WouldBlock => wait(&opened)?,
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+/// Waits until a pipe or device takes more.
+fn wait(file: &File) -> io::Result<()> {
+    let time = Timespec { tv_sec: PATIENCE.as_secs() as i64, tv_nsec: 0 };
+    match poll(&mut [PollFd::new(file, PollFlags::OUT)], Some(&time)) {
+        Ok(0) => {
+            let message = format!("its reader has read nothing for {} s", PATIENCE.as_secs());
+            Err(io::Error::new(io::ErrorKind::TimedOut, message))
+        }
+        Ok(_) | Err(rustix::io::Errno::INTR) => Ok(()),
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn pour(stream: &mut impl Write, content: &[u8]) -> io::Result<()> {
+    stream.write_all(content)?;
+    stream.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::{symlink, PermissionsExt};
+
+    fn names(folder: &Path) -> Vec<String> {
+        let names = fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name());
+        let mut names: Vec<String> = names.map(|n| n.into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_link_stays_and_its_file_is_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("sub")).unwrap();
+        symlink("sub/b", at("a")).unwrap();
+        symlink("c", at("sub/b")).unwrap();
+        for content in ["new", "newer"] {
+            write(&at("a"), content.as_bytes()).unwrap();
+            assert_eq!(fs::read_to_string(at("sub/c")).unwrap(), content);
+        }
+        assert!(at("a").is_symlink() && at("sub/b").is_symlink() && !at("sub/c").is_symlink());
+        symlink("y", at("x")).unwrap();
+        symlink("x", at("y")).unwrap();
+        assert!(write(&at("x"), b"").is_err());
+        assert!(write(&at("sub"), b"").unwrap_err().to_string().contains("directory"));
+        assert_eq!(names(folder.path()), ["a", "sub", "x", "y"]);
+        // Any name that the file system takes.
+        let long = at(&"n".repeat(255));
+        write(&long, b"content").unwrap();
+        let mode = fs::metadata(&long).unwrap().permissions().mode();
+        fs::write(at("plain"), "").unwrap();
+        assert_eq!(mode, fs::metadata(at("plain")).unwrap().permissions().mode());
+    }
+
+    #[test]
+    fn devices_and_pipes_are_written_to() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let error = write(&pipe, b"content").unwrap_err().to_string();
+        assert!(error.ends_with("cannot be written: no program reads from it"), "{error}");
+        // More than a pipe holds.
+        let content = vec![7; 300_000];
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || fs::read(pipe).unwrap()
+        });
+        // The reader may not have opened it yet.
+        while write(&pipe, &content).is_err() {
+            std::thread::yield_now();
+        }
+        assert_eq!(reader.join().unwrap(), content);
+        assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
+
+        let link = folder.path().join("link");
+        symlink("/dev/null", &link).unwrap();
+        write(&link, b"content").unwrap();
+        assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+        let error = write(Path::new("/dev/full"), b"content").unwrap_err().to_string();
+        assert!(error.contains("No space left"), "{error}");
+
+        let socket = folder.path().join("socket");
+        let listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        write(&socket, b"content").unwrap();
+        let mut said = String::new();
+        io::Read::read_to_string(&mut listener.accept().unwrap().0, &mut said).unwrap();
+        assert_eq!(said, "content");
+    }
+
+    #[test]
+    fn what_a_killed_writer_left_is_swept() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(".wheatstone-abc.part"), "half").unwrap();
+        let alive = scratch::file(folder.path()).unwrap();
+        write(&folder.path().join("a/b/file"), b"content").unwrap();
+        write(&folder.path().join("file"), b"content").unwrap();
+        let alive = alive.path().file_name().unwrap().to_str().unwrap();
+        assert_eq!(names(folder.path()), [alive, "a", "file"]);
+    }
+
+    #[test]
+    fn a_failure_leaves_no_new_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(write(&folder.path().join("a/b").join("n".repeat(256)), b"").is_err());
+        assert_eq!(names(folder.path()), [""; 0]);
+    }
+}
