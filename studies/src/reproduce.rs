@@ -6,7 +6,7 @@ use crate::{Experiment, Report, StudyError, Verdict};
 use serde_json::json;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use wheatstone_golden::files::{self, WriteError};
+use wheatstone_golden::files::{self, Set, WriteError};
 
 /// What is told while experiments run.
 #[derive(Clone, Copy, Debug)]
@@ -47,26 +47,32 @@ impl Summary {
 }
 
 /// Runs experiments one after another, as they time things; each writes into the folder of its
-/// name in `out`. Folders are made if need be.
+/// name in `out`, which has all files of one run. Folders are made if need be.
 pub fn run(
     experiments: &[Experiment],
     out: &Path,
     mut tell: impl FnMut(Event),
 ) -> Result<Vec<Report>, StudyError> {
     // All folders before any work, so that one that cannot be made costs none.
-    let folders: Vec<_> = experiments.iter().map(|e| out.join(e.name)).collect();
-    for folder in &folders {
-        std::fs::create_dir_all(folder)
-            .map_err(|source| WriteError { file: folder.clone(), source })?;
-    }
+    let sets: Result<Vec<Set>, _> =
+        experiments.iter().map(|e| Set::new(&out.join(e.name))).collect();
     let mut reports = Vec::new();
-    for (experiment, folder) in experiments.iter().zip(folders) {
+    for (experiment, set) in experiments.iter().zip(sets?) {
         tell(Event::Begin(experiment));
         let start = Instant::now();
-        let report = (experiment.run)(&folder)?;
+        let named = |error| match error {
+            StudyError::Write(error) => {
+                StudyError::Write(WriteError { file: set.named(&error.file), ..error })
+            }
+            other => other,
+        };
+        let mut report = (experiment.run)(set.path()).map_err(named)?;
+        report.files.iter_mut().for_each(|file| *file = set.named(file));
         let tables: String = report.tables.iter().map(|table| format!("{table}\n")).collect();
-        files::write(&folder.join("tables.txt"), tables.as_bytes())?;
-        files::write(&folder.join("report.json"), format!("{:#}\n", report.json()).as_bytes())?;
+        files::write(&set.path().join("tables.txt"), tables.as_bytes())?;
+        let json = format!("{:#}\n", report.json());
+        files::write(&set.path().join("report.json"), json.as_bytes())?;
+        set.finish("report.json", |_| false)?;
         tell(Event::End(&report, start.elapsed()));
         reports.push(report);
     }

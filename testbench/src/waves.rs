@@ -15,7 +15,7 @@ use std::io::{self, Read as _, Write as _};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
-use wheatstone_golden::files::Scratch;
+use wheatstone_golden::files::{Scratch, Set, WriteError};
 use wheatstone_golden::interface::{Direction, Field, Interface, Kind, Stream};
 
 /// Room that a dump must have while it is written; the largest take a hundredth of it.
@@ -128,10 +128,8 @@ impl Dump {
     /// Puts the dump, now complete, and its views in their place: all of them, or none.
     pub fn deliver(self, place: &Path, view: &View<'_>) -> Result<(), WaveError> {
         let dump = self.window().path;
-        let mut content = files(&dump, place, view)?.1;
-        let unread = |source| WaveError::Write { path: place.to_owned(), source };
-        content.push((place.to_owned(), fs::read(&dump).map_err(unread)?));
-        put(&content)
+        let content = files(&dump, place, view)?.1;
+        put(place, &content, Some(&dump))
     }
 }
 
@@ -142,31 +140,30 @@ fn probe(folder: &Path) -> io::Result<()> {
     (0..ROOM / block.len()).try_for_each(|_| file.write_all(&block))
 }
 
-/// Writes files of a folder under other names first, so that all appear or none.
-fn put(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WaveError> {
-    let Some(folder) = files.first().and_then(|(path, _)| path.parent()) else { return Ok(()) };
-    let at = |path: &Path| {
-        let path = path.to_owned();
-        |source| WaveError::Write { path, source }
-    };
-    let scratch = Scratch::new(folder).map_err(at(folder))?;
-    let name = |path: &Path| scratch.path().join(path.file_name().unwrap_or_default());
-    for (path, content) in files {
-        fs::write(name(path), content).map_err(at(path))?;
+/// Writes the views of a dump, and with them the dump if it is not in its place yet: all appear, or none.
+fn put(place: &Path, views: &Files, dump: Option<&Path>) -> Result<(), WaveError> {
+    let error = |error: WriteError| WaveError::Write { path: error.file, source: error.source };
+    let set = Set::new(place.parent().unwrap_or(Path::new("."))).map_err(error)?;
+    let to = |path: &Path| set.path().join(path.file_name().unwrap_or_default());
+    for (path, content) in views {
+        fs::write(to(path), content)
+            .map_err(|e| WaveError::Write { path: path.clone(), source: e })?;
     }
-    for (done, (path, _)) in files.iter().enumerate() {
-        if let Err(error) = fs::rename(name(path), path) {
-            files[..done].iter().for_each(|(path, _)| drop(fs::remove_file(path)));
-            return Err(at(path)(error));
-        }
+    if let Some(dump) = dump {
+        fs::copy(dump, to(place))
+            .map_err(|source| WaveError::Write { path: place.to_owned(), source })?;
     }
-    Ok(())
+    let main = place.file_name().unwrap_or_default().to_string_lossy();
+    let codes = place.with_extension("codes");
+    let codes = codes.file_name().unwrap_or_default().to_string_lossy();
+    set.finish(&main, |name| name.strip_prefix(&*codes).is_some_and(|n| n.ends_with(".txt")))
+        .map_err(error)
 }
 
 /// Writes the views `<dump>.gtkw` and `<dump>.sucl` beside a dump.
 pub fn write_views(dump: &Path, view: &View<'_>) -> Result<ViewFiles, WaveError> {
     let (views, content) = files(dump, dump, view)?;
-    put(&content)?;
+    put(dump, &content, None)?;
     Ok(views)
 }
 
@@ -384,15 +381,22 @@ mod tests {
     #[test]
     fn files_appear_all_or_none() {
         let folder = tempfile::tempdir().unwrap();
-        let content = |name: &str| (folder.path().join(name), name.as_bytes().to_vec());
-        let files = ["a", "b", "c"].map(content);
-        put(&files).unwrap();
-        assert!(files.iter().all(|(path, content)| fs::read(path).unwrap() == *content));
-        let files = ["x", "y", "z"].map(content);
-        fs::create_dir(&files[1].0).unwrap();
-        let error = put(&files).unwrap_err().to_string();
-        assert!(error.starts_with(&format!("cannot write {}", files[1].0.display())), "{error}");
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4, "a, b, c and the folder y");
+        let place = folder.path().join("a.fst");
+        let file = |name: &str| (folder.path().join(name), name.as_bytes().to_vec());
+        let older = ["a.gtkw", "a.codes0.txt", "a.codes1.txt"].map(file).to_vec();
+        put(&place, &older, Some(Path::new(file!()).with_extension("none").as_path())).unwrap_err();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        let dump = tempfile::NamedTempFile::new().unwrap();
+        put(&place, &older, Some(dump.path())).unwrap();
+        assert!(older.iter().all(|(path, content)| fs::read(path).unwrap() == *content));
+        put(&place, &older[..2].to_vec(), Some(dump.path())).unwrap();
+        assert!(!older[2].0.exists(), "codes that no view names");
+        fs::create_dir(folder.path().join("b.gtkw")).unwrap();
+        let views = ["b.codes0.txt", "b.gtkw"].map(file).to_vec();
+        let error = put(&folder.path().join("b.fst"), &views, Some(dump.path())).unwrap_err();
+        let expected = format!("cannot write {}", folder.path().join("b.gtkw").display());
+        assert!(error.to_string().starts_with(&expected), "{error}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4);
     }
 
     #[test]

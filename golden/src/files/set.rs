@@ -20,13 +20,14 @@ use std::path::{Path, PathBuf};
 /// Some folders cannot be exchanged: one with folders in it, the working folder of this process, a mount point,
 /// one beside which nothing can be made, and any on a file system without exchange or hard links. There the files
 /// of the older set are removed first, then those of the new one are renamed into place: a kill in that moment
-/// leaves some of one set, never files of both. The file that was added last is the first to go and the last to
-/// come: as long as it is there, its set is whole.
+/// leaves some of one set, never files of both. The main file of a set is the first to go and the last to come:
+/// as long as it is there, its set is whole.
 #[derive(Debug)]
 pub struct Set {
     folder: PathBuf,
+    /// Where the folder is without symbolic links.
+    place: PathBuf,
     scratch: Scratch,
-    names: Vec<OsString>,
     _tidy: Tidy,
 }
 
@@ -36,128 +37,146 @@ impl Set {
     /// # Errors
     /// Where neither beside the folder nor in it anything can be written.
     pub fn new(folder: &Path) -> Result<Set, WriteError> {
+        let folder = if folder == Path::new("") { Path::new(".") } else { folder };
         let tidy = Tidy::new(folder);
         let make = || match fs::canonicalize(folder) {
-            Ok(old) => {
-                let beside = beside(&old).map(Scratch::new);
-                let scratch = match beside {
-                    Some(Ok(scratch)) => scratch,
-                    _ => Scratch::new(&old)?,
-                };
-                Ok((old, scratch))
-            }
+            Ok(place) => match beside(&place).map(Scratch::new) {
+                Some(Ok(scratch)) => Ok((place, scratch)),
+                _ => Scratch::new(&place).map(|scratch| (place, scratch)),
+            },
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                fs::create_dir_all(super::parent(folder))?;
-                Ok((folder.to_owned(), Scratch::new(super::parent(folder))?))
+                let parent = super::parent(folder);
+                fs::create_dir_all(parent)?;
+                Ok((folder.to_owned(), Scratch::new(parent)?))
             }
             Err(error) => Err(error),
         };
-        let (place, scratch) =
-            make().map_err(|source| WriteError { file: folder.to_owned(), source })?;
-        Ok(Set { folder: place, scratch, names: Vec::new(), _tidy: tidy })
+        let (place, scratch) = make().map_err(at(folder))?;
+        Ok(Set { folder: folder.to_owned(), place, scratch, _tidy: tidy })
     }
 
-    /// Where to write the file of that name meanwhile.
-    pub fn add(&mut self, name: impl Into<OsString>) -> PathBuf {
-        let name = name.into();
-        let file = self.scratch.path().join(&name);
-        self.names.push(name);
-        file
+    /// The folder to write the files into.
+    pub fn path(&self) -> &Path {
+        self.scratch.path()
     }
 
-    /// Puts the files in their place, and removes those of an older set that are `stale`.
+    /// The name that a file in [`Set::path`] is going to have.
+    pub fn named(&self, file: &Path) -> PathBuf {
+        let name = file.strip_prefix(self.path());
+        name.map_or_else(|_| file.to_owned(), |name| self.folder.join(name))
+    }
+
+    /// Puts the files into their place, and removes those of an older set: the ones with the same names and those that
+    /// are `stale`.
     ///
     /// # Errors
     /// Where that cannot be done; the folder then has what it had, or nothing of either set.
-    pub fn finish(self, stale: &[&str]) -> Result<(), WriteError> {
-        let folder = self.folder.clone();
-        self.put(stale).map_err(|source| WriteError { file: folder, source })
-    }
-
-    fn put(self, stale: &[&str]) -> io::Result<()> {
-        for name in &self.names {
-            File::open(self.scratch.path().join(name))?.sync_all()?;
+    pub fn finish(self, main: &str, stale: impl Fn(&str) -> bool) -> Result<(), WriteError> {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(self.path()).map_err(at(&self.folder))? {
+            names.push(entry.map_err(at(&self.folder))?.file_name());
         }
-        if !self.is_inside() {
-            super::sync_folder(self.scratch.path())?;
-            let (new, place) = (self.scratch.path(), &self.folder);
-            match renameat_with(CWD, new, CWD, place, RenameFlags::NOREPLACE) {
-                Ok(()) => {
+        names.sort_by_key(|name| name == main);
+        for name in &names {
+            let file = self.path().join(name);
+            File::open(&file).and_then(|file| file.sync_all()).map_err(at(&self.named(&file)))?;
+        }
+        let own: BTreeSet<&OsStr> = names.iter().map(OsString::as_os_str).collect();
+        let is_own = |name: &OsStr| own.contains(name) || name.to_str().is_some_and(&stale);
+        if self.scratch.path().parent() != Some(&self.place) {
+            match self.replace(&is_own) {
+                Ok(Replaced::New) => {
                     self.scratch.keep();
-                    return super::sync_folder(super::parent(&self.folder));
+                    return Ok(());
                 }
-                Err(_) => {
-                    fs::create_dir_all(place)?;
-                    let _lock = lock(place)?;
-                    if self.exchange(stale)? {
-                        return super::sync_folder(super::parent(place));
-                    }
-                }
+                Ok(Replaced::Older) => return Ok(()),
+                Ok(Replaced::Not) => {}
+                Err(source) => return Err(at(&self.folder)(source)),
             }
         }
-        self.one_by_one(stale)
+        self.one_by_one(&names, &is_own)
     }
 
-    /// Whether the files are made in the folder itself.
-    fn is_inside(&self) -> bool {
-        self.scratch.path().parent() == Some(&self.folder)
-    }
-
-    /// Replaces the folder; says whether it could.
-    fn exchange(&self, stale: &[&str]) -> io::Result<bool> {
-        let own: BTreeSet<&OsStr> = self
-            .names
-            .iter()
-            .map(OsString::as_os_str)
-            .chain(stale.iter().map(OsStr::new))
-            .collect();
-        let (new, old) = (self.scratch.path(), fs::metadata(&self.folder)?);
-        if beside(&self.folder).is_none() || like(new, &old).is_err() {
-            return Ok(false);
+    /// Puts the new folder into its place, if it can.
+    fn replace(&self, is_own: &dyn Fn(&OsStr) -> bool) -> io::Result<Replaced> {
+        let (new, place) = (self.path(), &self.place);
+        super::sync_folder(new)?;
+        if renameat_with(CWD, new, CWD, place, RenameFlags::NOREPLACE).is_ok() {
+            super::sync_folder(super::parent(place))?;
+            return Ok(Replaced::New);
         }
-        for entry in others(&self.folder, &own)? {
+        fs::create_dir_all(place)?;
+        let _lock = lock(place)?;
+        let old = fs::metadata(place)?;
+        if beside(place).is_none() || like(new, &old).is_err() {
+            return Ok(Replaced::Not);
+        }
+        for entry in others(place, is_own)? {
             if fs::hard_link(entry.path(), new.join(entry.file_name())).is_err() {
-                return Ok(false);
+                return Ok(Replaced::Not);
             }
         }
         super::sync_folder(new)?;
-        if publish::exchange(new, &self.folder).is_err() {
-            return Ok(false);
+        if publish::exchange(new, place).is_err() {
+            return Ok(Replaced::Not);
         }
         // The names are exchanged: the older folder is the temporary one now.
-        for entry in others(new, &own)? {
-            let place = self.folder.join(entry.file_name());
+        for entry in others(new, is_own)? {
+            let moved = place.join(entry.file_name());
             let inode = |metadata: Metadata| metadata.ino();
-            if fs::symlink_metadata(&place).ok().map(inode) != entry.metadata().ok().map(inode) {
-                fs::rename(entry.path(), place)?;
+            if fs::symlink_metadata(&moved).ok().map(inode) != entry.metadata().ok().map(inode) {
+                fs::rename(entry.path(), moved)?;
             }
         }
-        Ok(true)
+        super::sync_folder(super::parent(place))?;
+        Ok(Replaced::Older)
     }
 
-    /// Replaces the files, the last one of the set first and last.
-    fn one_by_one(&self, stale: &[&str]) -> io::Result<()> {
-        let place = |name: &OsString| self.folder.join(name);
-        if let Some(taken) = self.names.iter().find(|&name| place(name).is_dir()) {
-            let message = format!("{} is a folder", taken.display());
-            return Err(io::Error::new(io::ErrorKind::IsADirectory, message));
+    /// Replaces the files, of which the main one is the last.
+    fn one_by_one(
+        &self,
+        names: &[OsString],
+        is_own: &dyn Fn(&OsStr) -> bool,
+    ) -> Result<(), WriteError> {
+        if let Some(taken) = names.iter().find(|&name| self.place.join(name).is_dir()) {
+            return Err(at(&self.folder.join(taken))(io::ErrorKind::IsADirectory.into()));
         }
-        let remove = |name: &Path| match fs::remove_file(self.folder.join(name)) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        let remove = |name: &OsStr| match fs::remove_file(self.place.join(name)) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Err(at(&self.folder.join(name))(error))
+            }
             _ => Ok(()),
         };
-        self.names.iter().rev().try_for_each(|name| remove(name.as_ref()))?;
-        stale.iter().try_for_each(|name| remove(name.as_ref()))?;
-        // Nothing of the older set comes back where the new one is.
-        super::sync_folder(&self.folder)?;
-        for name in &self.names {
-            if let Err(error) = fs::rename(self.scratch.path().join(name), place(name)) {
-                self.names.iter().rev().for_each(|name| drop(remove(name.as_ref())));
-                return Err(error);
+        names.iter().rev().try_for_each(|name| remove(name))?;
+        for entry in fs::read_dir(&self.place).map_err(at(&self.folder))?.flatten() {
+            if is_own(&entry.file_name()) {
+                remove(&entry.file_name())?;
             }
         }
-        super::sync_folder(&self.folder)
+        // Nothing of the older set comes back where the new one is.
+        super::sync_folder(&self.place).map_err(at(&self.folder))?;
+        for name in names {
+            if let Err(error) = fs::rename(self.path().join(name), self.place.join(name)) {
+                names.iter().rev().for_each(|name| drop(remove(name)));
+                return Err(at(&self.folder.join(name))(error));
+            }
+        }
+        super::sync_folder(&self.place).map_err(at(&self.folder))
     }
+}
+
+/// What became of the folder of a set.
+enum Replaced {
+    /// There was none before.
+    New,
+    /// It took the place of an older one.
+    Older,
+    /// It must be filled file by file.
+    Not,
+}
+
+fn at(file: &Path) -> impl Fn(io::Error) -> WriteError + '_ {
+    move |source| WriteError { file: file.to_owned(), source }
 }
 
 /// The folder beside which a new one can be made to be exchanged for this one.
@@ -174,10 +193,10 @@ fn beside(folder: &Path) -> Option<&Path> {
 }
 
 /// What else is in a folder.
-fn others(folder: &Path, own: &BTreeSet<&OsStr>) -> io::Result<Vec<DirEntry>> {
+fn others(folder: &Path, is_own: &dyn Fn(&OsStr) -> bool) -> io::Result<Vec<DirEntry>> {
     let is_other = |entry: &DirEntry| {
         let name = entry.file_name();
-        !own.contains(name.as_os_str()) && !is_temporary(&name.to_string_lossy())
+        !is_own(&name) && !is_temporary(&name.to_string_lossy())
     };
     fs::read_dir(folder)?.filter(|e| e.as_ref().map_or(true, is_other)).collect()
 }
@@ -210,11 +229,11 @@ mod tests {
     use std::os::unix::fs::{symlink, PermissionsExt};
 
     fn put(folder: &Path, files: &[(&str, &str)], stale: &[&str]) -> Result<(), WriteError> {
-        let mut set = Set::new(folder)?;
+        let set = Set::new(folder)?;
         for (name, content) in files {
-            fs::write(set.add(*name), content).unwrap();
+            fs::write(set.path().join(name), content).unwrap();
         }
-        set.finish(stale)
+        set.finish(files[0].0, |name| stale.contains(&name))
     }
 
     fn content(folder: &Path) -> Vec<String> {
@@ -258,7 +277,7 @@ mod tests {
         assert_eq!(content(&p), ["sub=folder", "x=1", "z=1"]);
         // A name that is taken is seen before anything goes.
         let error = put(&p, &[("x", "2"), ("sub", "2")], &["z"]).unwrap_err().to_string();
-        assert!(error.contains("sub is a folder"), "{error}");
+        assert!(error.contains("p/sub: cannot be written: is a directory"), "{error}");
         assert_eq!(content(&p), ["sub=folder", "x=1", "z=1"]);
         assert_eq!(content(folder.path()), ["p=folder"]);
     }
@@ -266,10 +285,11 @@ mod tests {
     #[test]
     fn a_set_that_is_not_finished_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
-        let mut set = Set::new(&folder.path().join("a/b")).unwrap();
-        fs::write(set.add("x"), "1").unwrap();
-        set.add("never written");
-        assert!(set.finish(&[]).is_err());
+        let set = Set::new(&folder.path().join("a/b")).unwrap();
+        let file = set.path().join("x");
+        fs::write(&file, "1").unwrap();
+        assert_eq!(set.named(&file), folder.path().join("a/b/x"));
+        drop(set);
         assert_eq!(content(folder.path()), [""; 0]);
         let file = folder.path().join("file");
         fs::write(&file, "").unwrap();

@@ -1,9 +1,9 @@
 //! `wheatstone compare`.
 
 use super::*;
-use wheatstone_golden::files;
+use wheatstone_golden::files::{self, Set};
 use wheatstone_golden::setup::Arrangement;
-use wheatstone_studies::compare::{compare, json, table, Grouped, Method};
+use wheatstone_studies::compare::{compare, json, table, Grouped, Method, METHODS};
 use wheatstone_studies::prepared::Prepared;
 
 #[derive(Debug, Args)]
@@ -28,13 +28,11 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     let name = args.common.view.scene.as_deref().unwrap_or("room");
     let scene = args.common.open(name, args.common.view.size)?;
     let geometry = args.common.geometry_of(&scene, &settings)?;
-    if let Some(out) = &args.out {
-        std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;
-    }
+    let set = args.out.as_deref().map(Set::new).transpose()?;
     let prepared = Prepared::of(scene, geometry, settings.config, options, settings.lookup);
     let spinner = Spinner::new();
     let tell = |method: &Method| spinner.tell(method.name, method.description);
-    let outcomes = compare(&prepared, args.out.as_deref(), tell);
+    let outcomes = compare(&prepared, set.as_ref().map(Set::path), tell);
     drop(spinner);
     let outcomes = outcomes?;
     let Geometry { width, height, polygons: drawn, .. } = &prepared.geometry;
@@ -45,8 +43,14 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     say!("{name}, {width}x{height}: the second view of {a} polygons in {b} triangles, {c} drawn");
     say!("{}", table(&outcomes));
     say!("time: of the second view, direct rendering's is 1; that of SAM is its golden model's");
-    for file in outcomes.iter().filter_map(|o| o.result.as_ref().ok()?.file.as_ref()) {
-        say!("image {}", file.display());
+    if let Some(set) = set {
+        let files = outcomes.iter().filter_map(|o| o.result.as_ref().ok()?.file.as_ref());
+        let files: Vec<PathBuf> = files.map(|file| set.named(file)).collect();
+        // Methods that do not suit this scene have no picture.
+        let is_method =
+            |name: &str| METHODS.iter().any(|m| name.strip_suffix(".png") == Some(m.name));
+        set.finish("direct.png", is_method)?;
+        files.iter().for_each(|file| say!("image {}", file.display()));
     }
     if let Some(file) = &args.json {
         let content = serde_json::json!({

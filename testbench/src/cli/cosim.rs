@@ -3,8 +3,8 @@
 use super::*;
 use crate::regression::{self, command_line, counted, Entry, Event, NamedScene, Plan, Waves};
 use std::sync::Mutex;
-use wheatstone_golden::files;
 use wheatstone_golden::files::Tidy;
+use wheatstone_golden::files::{self, Set};
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::picture::{frame_picture, write_png};
 
@@ -203,15 +203,15 @@ fn pictures(entry: &Entry, out: &Path) -> Result<Vec<PathBuf>, Failure> {
     let Some(scene) = &entry.scene else { return Ok(Vec::new()) };
     let stem = Path::new(&entry.name).file_stem().map_or("scene".into(), |s| s.to_string_lossy());
     let folder = out.join(format!("{}-{stem}", entry.target.name()));
-    std::fs::create_dir_all(&folder)
-        .map_err(|source| WriteError { file: folder.clone(), source })?;
+    let set = Set::new(&folder)?;
     let mut files = Vec::new();
     for eye in Eye::BOTH {
         let frame = &scene.frames.eyes[eye as usize];
-        let file = folder.join(format!("{}.png", eye.name()));
+        let file = set.path().join(format!("{}.png", eye.name()));
         write_png(&file, &frame_picture(frame))?;
-        files.push(file);
+        files.push(set.named(&file));
     }
+    set.finish("left.png", |_| false)?;
     Ok(files)
 }
 

@@ -4,7 +4,7 @@ use super::*;
 use crate::cover::{self, Counts, Report, Waiver};
 use crate::regression::{Event, Plan, Waves};
 use std::fs;
-use wheatstone_golden::files;
+use wheatstone_golden::files::{self, Set};
 
 /// Empty bins and missing points that are named on the terminal.
 const SHOWN: usize = 40;
@@ -113,15 +113,16 @@ fn plans(args: &CoverArgs, rtl: &Path) -> Result<Vec<Plan<'static>>, Failure> {
 
 /// Writes every file with its counts.
 fn annotate(out: &Path, rtl: &Path, counts: &Counts, report: &Report) -> Result<(), Failure> {
-    fs::create_dir_all(out).map_err(|source| WriteError { file: out.to_owned(), source })?;
+    let set = Set::new(out)?;
     for name in report.files.keys() {
         let source = rtl.join(name);
         let text = fs::read_to_string(&source)
             .map_err(|error| Failure::Input(format!("{}: {error}", source.display())))?;
-        let file = out.join(format!("{name}.txt"));
+        let file = set.path().join(format!("{name}.txt"));
         files::write(&file, cover::annotated(name, &text, counts, report).as_bytes())?;
     }
-    Ok(())
+    // The counts of an older run are of other stimulus.
+    Ok(set.finish("", |name| name.ends_with(".v.txt"))?)
 }
 
 /// Tells what is missing; of some targets alone much may be.

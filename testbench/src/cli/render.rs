@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::regression::drawn_line;
-use wheatstone_golden::files::Scratch;
+use wheatstone_golden::files::Set;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::NO_ID;
 use wheatstone_golden::picture::{
@@ -58,8 +58,12 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let scene = args.common.open(name, args.common.view.size)?;
     let geometry = args.common.geometry_of(&scene, &settings)?;
     // Before the work, so that a folder that cannot be made costs none.
-    std::fs::create_dir_all(&args.out)
-        .map_err(|source| WriteError { file: args.out.clone(), source })?;
+    let set = Set::new(&args.out)?;
+    let mut files = Vec::new();
+    let mut add = |name: String| {
+        files.push(set.path().join(name));
+        files[files.len() - 1].clone()
+    };
     left_out(&geometry);
     let job = job(&settings, &geometry, settings.options);
     let start = std::time::Instant::now();
@@ -84,19 +88,18 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
         }
     };
     let pictures = [&frames[0], &frames[1]].map(frame_picture);
-    let mut set = Set::new(&args.out)?;
     for eye in Eye::BOTH {
         let frame = &frames[eye as usize];
-        write_png(&set.add(format!("{}.png", eye.name())), &pictures[eye as usize])?;
+        write_png(&add(format!("{}.png", eye.name())), &pictures[eye as usize])?;
         let id = |x: u32, y: u32| {
             Some(frame.id[(y * frame.width + x) as usize]).filter(|&id| id != NO_ID)
         };
         let ids = id_picture(frame.width, frame.height, id);
-        write_png(&set.add(format!("{}_ids.png", eye.name())), &ids)?;
+        write_png(&add(format!("{}_ids.png", eye.name())), &ids)?;
     }
     let wanted = Composite::ALL.iter().filter(|composite| args.stereo.contains(composite));
     for composite in wanted {
-        let file = set.add(format!("{}.png", composite.name()));
+        let file = add(format!("{}.png", composite.name()));
         let free = composite.is_side_by_side().then(|| {
             let far = scene.rig.eye_separation * scene.rig.pixels_per_unit;
             print_resolution(pictures[0].width(), far, EYE_SEPARATION)
@@ -104,48 +107,15 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
         let views = Views { left: &pictures[0], right: &pictures[1] };
         composite.write(&file, &views, args.dpi.or(free))?;
     }
-    for file in set.finish()? {
-        say!("image {}", file.display());
-    }
+    let files: Vec<PathBuf> = files.iter().map(|file| set.named(file)).collect();
+    set.finish("left.png", is_composite)?;
+    files.iter().for_each(|file| say!("image {}", file.display()));
     Ok(OK)
 }
 
-/// Pictures of one run: they appear together when all are written, and replace all of an older run.
-struct Set<'a> {
-    out: &'a Path,
-    scratch: Scratch,
-    names: Vec<String>,
-}
-
-impl Set<'_> {
-    fn new(out: &Path) -> Result<Set<'_>, WriteError> {
-        let scratch = Scratch::new(out);
-        let scratch = scratch.map_err(|source| WriteError { file: out.into(), source })?;
-        Ok(Set { out, scratch, names: Vec::new() })
-    }
-
-    /// Where to write the picture of that name meanwhile.
-    fn add(&mut self, name: String) -> PathBuf {
-        let file = self.scratch.path().join(&name);
-        self.names.push(name);
-        file
-    }
-
-    /// Puts the pictures in their place; composites of an older run show other views and go.
-    fn finish(self) -> Result<Vec<PathBuf>, WriteError> {
-        for composite in Composite::ALL {
-            // Nearly always there is none.
-            let _ = std::fs::remove_file(self.out.join(format!("{}.png", composite.name())));
-        }
-        let place = |name: &String| {
-            let file = self.out.join(name);
-            match std::fs::rename(self.scratch.path().join(name), &file) {
-                Ok(()) => Ok(file),
-                Err(source) => Err(WriteError { file, source }),
-            }
-        };
-        self.names.iter().map(place).collect()
-    }
+/// Whether a file is a composite: one of an older run shows other views.
+fn is_composite(name: &str) -> bool {
+    Composite::ALL.iter().any(|composite| name.strip_suffix(".png") == Some(composite.name()))
 }
 
 /// Says what is not drawn.

@@ -1,7 +1,7 @@
 //! `wheatstone rig`.
 
 use super::*;
-use wheatstone_golden::files;
+use wheatstone_golden::files::{self, Set};
 use wheatstone_golden::scene::RigFile;
 
 const HELP: &str =
@@ -47,8 +47,11 @@ pub(super) fn run(args: &RigArgs) -> Result<u8, Failure> {
     say!("{name}, {volume}\n\n{}", volume.tables(at));
     volume.notes().iter().for_each(|note| say!("\nnote: {note}"));
     if let Some(out) = &args.out {
-        std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;
-        volume.plots(out)?.iter().for_each(|file| say!("file {}", file.display()));
+        let set = Set::new(out)?;
+        let files = volume.plots(set.path())?;
+        let files: Vec<PathBuf> = files.iter().map(|file| set.named(file)).collect();
+        set.finish("distance_map.svg", |_| false)?;
+        files.iter().for_each(|file| say!("file {}", file.display()));
     }
     if let Some(file) = &args.json {
         let mut content = volume.json(at);
