@@ -91,6 +91,15 @@ pub fn plant(rtl: &Path, file: &str, find: &str, replace: &str) {
     fs::write(&path, text.replacen(find, replace, 1)).expect("written");
 }
 
+/// Makes a program of a shell script. Another process writes it: one that this process begins meanwhile would
+/// have it open, and what is open for writing cannot be run.
+pub fn script(folder: &Path, name: &str, text: &str) {
+    let mut command = Command::new("sh");
+    command.args(["-c", "printf '#!/bin/sh\\n%s\\n' \"$2\" >\"$1\" && chmod +x \"$1\"", "sh"]);
+    let status = command.arg(folder.join(name)).arg(text).status().expect("sh runs");
+    assert!(status.success(), "{name}: not written");
+}
+
 /// A program that the tests call; a missing one fails the test, with the command that installs it.
 pub fn tool(program: &str) -> Command {
     static DOCTOR: OnceLock<Doctor> = OnceLock::new();

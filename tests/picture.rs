@@ -117,22 +117,25 @@ fn write_until_killed() {
 fn a_killed_program_leaves_a_whole_picture() {
     let folder = tempfile::tempdir().expect("a folder");
     let program = std::env::current_exe().expect("this program");
+    let path = folder.path().join("picture.png");
     for round in 0..10 {
+        let _ = fs::remove_file(&path);
         let mut child = Command::new(&program)
             .args(["--exact", "write_until_killed", "--ignored"])
             .env("WHEATSTONE_TEST_FOLDER", folder.path())
             .stdout(std::process::Stdio::null())
             .spawn()
             .expect("a child");
-        std::thread::sleep(std::time::Duration::from_millis(60 + 7 * round));
+        // However slow it is: it is killed while it writes.
+        while !path.exists() {
+            assert!(child.try_wait().expect("a child").is_none(), "it ended by itself");
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        std::thread::sleep(std::time::Duration::from_millis(7 * round));
         child.kill().expect("killed");
         child.wait().expect("gone");
-        let path = folder.path().join("picture.png");
-        if path.exists() {
-            assert_eq!(image::open(&path).expect("a whole picture").width(), 512);
-        }
+        assert_eq!(image::open(&path).expect("a whole picture").width(), 512);
     }
-    assert!(folder.path().join("picture.png").exists());
     let stray = names(folder.path()).into_iter().filter(|n| n != "picture.png");
     assert!(stray.into_iter().all(|n| n.starts_with('.') && n.ends_with(".part")));
 }

@@ -100,6 +100,8 @@ pub struct Output {
     pub stderr: Vec<u8>,
     /// Whether it was stopped as it had used up its processor time.
     pub is_stopped: bool,
+    /// Processor time that it and what it has started have used, where that is limited.
+    pub processor: Duration,
 }
 
 impl Output {
@@ -186,6 +188,7 @@ impl<'a> Process<'a> {
             thread::spawn(move || drop(pipe.write_all(&input)));
         }
         let end = self.watch(&group, &events);
+        let used = self.processor.map(|_| usage::of_group(group.id)).unwrap_or_default();
         let status = group.end();
         let drained = Instant::now() + DRAIN;
         while !(stdout.is_drained() && stderr.is_drained()) {
@@ -207,11 +210,9 @@ impl<'a> Process<'a> {
                 let bytes = FLOOD + self.kept as u64;
                 Err(ProcessError::Flood { call, bytes, said: lines.join("\n") })
             }
-            End::Ended => {
-                Ok(Output { status: self.ended(status)?, stdout, stderr, is_stopped: false })
-            }
-            End::Stopped => {
-                Ok(Output { status: self.ended(status)?, stdout, stderr, is_stopped: true })
+            End::Ended | End::Stopped => {
+                let (status, is_stopped) = (self.ended(status)?, matches!(end, End::Stopped));
+                Ok(Output { status, stdout, stderr, is_stopped, processor: used })
             }
         }
     }

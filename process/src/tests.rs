@@ -71,6 +71,7 @@ fn processor_time_is_counted_of_all_of_the_group() {
         .run()
         .unwrap();
     assert!(output.is_stopped && !output.succeeded());
+    assert!(output.processor >= Duration::from_millis(300), "{:?}", output.processor);
     assert_eq!(output.stdout, b"on\n");
     let idle = Process::new("t", &mut sh("sleep 1")).processor(Duration::from_millis(500)).run();
     assert!(idle.unwrap().succeeded(), "time that is slept is none");

@@ -154,15 +154,14 @@ impl Folder {
         }
     }
 
-    /// What a command says and how it ends; it is stopped when it and all that it has started have used so many
-    /// seconds of processor time together, see [`Output::is_stopped`].
+    /// What a command says and how it ends; it is stopped when it and all that it has started have used so much
+    /// processor time together, see [`Output::is_stopped`].
     pub fn limited(
         &self,
         tool: &'static Tool,
         command: &mut Command,
-        seconds: u32,
+        limit: Duration,
     ) -> Result<Output, FlowError> {
-        let limit = Duration::from_secs(seconds.into());
         Ok(Process::new(tool.program, command).on(&self.module).processor(limit).run()?)
     }
 

@@ -1,8 +1,8 @@
 //! `wheatstone prove`.
 
 use super::*;
-use crate::prove::record::{self, shown, Clocks, Compared, Proved, Record, Whole};
-use crate::prove::{name, properties, Bug, Catch, Effort, Prover, Verdict, BUGS};
+use crate::prove::record::{self, shown, Compared, Extent, Proved, Record};
+use crate::prove::{name, properties, Bug, Catch, Effort, Prover, Verdict, BUGS, LIMIT};
 use rayon::prelude::*;
 use std::time::Instant;
 use wheatstone_golden::config::Config;
@@ -21,19 +21,18 @@ pub(super) struct ProveArgs {
     #[arg(long, conflicts_with = "netlist")]
     bugs: bool,
     /// Compare the netlists of gates with the Verilog instead, in the configurations paper and default; exit
-    /// status 1 if one differs. One that is not decided in a minute counts as not different
+    /// status 1 if one differs. One that is not decided in a minute of processor time counts as not different
     #[arg(long)]
     netlist: bool,
-    /// Prove anew what was proved before, and keep nothing of it: for the time that the whole run takes,
-    /// which --record then writes, too
+    /// Prove anew what was proved before, and keep nothing of it
     #[arg(long)]
     fresh: bool,
     /// Write a JSON report
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Compare with the committed record: exit status 1 if something is proved for less than it says, or
-    /// everything, with --fresh, took more than 20 minutes. On a busy machine provers, which have a minute
-    /// each, may come less far
+    /// everything took more than 40 minutes of processor time, or a prover of the short set more than a fifth of
+    /// the minute that each of them has
     #[arg(long, conflicts_with_all = ["bugs", "record"])]
     check: bool,
     /// Write what was proved into the record; `wheatstone generate` then renews docs/formal.md
@@ -44,19 +43,12 @@ pub(super) struct ProveArgs {
     rtl: Option<PathBuf>,
 }
 
-impl ProveArgs {
-    /// Whether this run proves everything, and that anew.
-    fn is_whole(&self) -> bool {
-        self.fresh && !self.quick && self.modules.is_empty()
-    }
-}
-
 pub(super) fn run(args: &ProveArgs) -> Result<u8, Failure> {
     let rtl = rtl_folder(&args.rtl)?;
     let cache = cache_folder(workspace(), Prover::CACHE, |name| std::env::var_os(name));
     let fresh = args.fresh.then(|| Scratch::below(&cache)).transpose()?;
     let cache = fresh.as_ref().map_or(cache, |folder| folder.path().to_owned());
-    let prover = Prover { rtl, cache };
+    let prover = Prover::new(rtl, cache);
     let modules = chosen(args, &prover)?;
     match (args.bugs, args.netlist) {
         (true, _) => bugs(args, &prover, &modules),
@@ -82,13 +74,13 @@ fn chosen(args: &ProveArgs, prover: &Prover) -> Result<Vec<String>, Failure> {
 
 fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, Failure> {
     let mut builds = Vec::new();
-    for module in modules.iter().filter(|module| !args.quick || Effort::is_quick(module)) {
-        let of_module = prover.builds(module)?;
-        let wanted = of_module.into_iter().take(if args.quick { 1 } else { usize::MAX });
-        builds.extend(wanted.map(|build| {
-            let effort = Effort::of(module);
-            (build, if args.quick { effort.quick() } else { effort })
-        }));
+    for module in modules {
+        let (effort, number) = match args.quick {
+            true => (Effort::quick(module), 1),
+            false => (Some(Effort::of(module)), usize::MAX),
+        };
+        let Some(effort) = effort else { continue };
+        builds.extend(prover.builds(module)?.into_iter().take(number).map(|build| (build, effort)));
     }
     if builds.is_empty() {
         let why = format!("{}: not in the short set; leave out --quick", modules.join(", "));
@@ -115,18 +107,13 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
     let proving: f64 = proved.iter().map(|entry| entry.proof.seconds).sum();
     let seconds = started.elapsed().as_secs_f64().round();
     let when = if args.fresh { "" } else { ", some of it maybe earlier" };
-    say!("{seconds:.0} s on the clock; provers took {proving:.0} s together{when}");
+    say!("{seconds:.0} s on the clock; provers took {proving:.0} s of processor time{when}");
     write_json(args, "proofs", &proved)?;
-    let cores = rayon::current_num_threads();
-    let whole = args.is_whole().then_some(Whole { seconds, cores });
     if args.record {
-        update(&proved, &[], whole)?;
+        update(&proved, &[])?;
     }
-    let fails = |entry: &Proved| {
-        let mut verdicts = entry.proof.verdicts.values();
-        verdicts.any(|verdict| matches!(verdict, Verdict::Fails(_)))
-    };
-    let lost = if args.check { lost(args, &proved, whole)? } else { OK };
+    let fails = |entry: &Proved| entry.proof.failed().next().is_some();
+    let lost = if args.check { lost(args, &proved)? } else { OK };
     Ok(if proved.iter().any(fails) { MISMATCH } else { lost })
 }
 
@@ -136,10 +123,10 @@ fn read(root: &Path) -> Result<Record, Failure> {
 }
 
 /// Tells what is proved for less than the record says, or too slowly, and gives the exit status.
-fn lost(args: &ProveArgs, proved: &[Proved], whole: Option<Whole>) -> Result<u8, Failure> {
-    let clocks = if args.quick { Clocks::Ignore } else { Clocks::Count };
-    let mut faults = read(&root()?)?.faults(proved, clocks);
-    faults.extend(whole.and_then(Whole::fault));
+fn lost(args: &ProveArgs, proved: &[Proved]) -> Result<u8, Failure> {
+    let extent = if args.quick { Extent::Short } else { Extent::All };
+    let mut faults = read(&root()?)?.faults(proved, extent);
+    faults.extend(record::slow(proved, extent));
     Ok(checked(&faults, record::FILE))
 }
 
@@ -147,13 +134,14 @@ fn print_proofs(prover: &Prover, proved: &[Proved]) -> Result<(), Failure> {
     let mut table = comfy_table::Table::new();
     table.load_preset(comfy_table::presets::NOTHING);
     table.set_header(["module", "property", "proved", "build", "seconds"]);
-    let (mut always, mut bounded, mut failed) = (0, 0, 0);
+    let (mut always, mut bounded, mut stopped, mut failed) = (0, 0, 0, 0);
     for entry in proved {
         for property in properties(&prover.text(&entry.module)?) {
             let Some(verdict) = entry.verdict(&property.name) else { continue };
             match verdict {
                 Verdict::Induction(_) => always += 1,
                 Verdict::Bounded(_) => bounded += 1,
+                Verdict::Stopped(_) => stopped += 1,
                 Verdict::Fails(_) => failed += 1,
             }
             let seconds = format!("{:.1}", entry.proof.seconds);
@@ -168,7 +156,11 @@ fn print_proofs(prover: &Prover, proved: &[Proved]) -> Result<(), Failure> {
         }
     }
     say!("{table}\n");
-    say!("{always} proved for any number of clocks, {bounded} for so many, {failed} fail");
+    let stopped = match stopped {
+        0 => String::new(),
+        _ => format!(", {stopped} stopped after {} s of processor time", LIMIT.as_secs()),
+    };
+    say!("{always} proved for any number of clocks, {bounded} for so many{stopped}, {failed} fail");
     Ok(())
 }
 
@@ -239,14 +231,14 @@ fn netlists(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8,
     for Compared { target, config, equivalence } in &compared {
         let verdict = match (equivalence.closes(), equivalence.points) {
             (true, points) => format!("equal at {points} points"),
-            (false, 0) => "does not close".into(),
+            (false, 0) => "stopped".into(),
             (false, points) => format!("{} of {points} points open", equivalence.open),
         };
         say!("{target} {config}: {verdict}, {:.1} s", equivalence.seconds);
     }
     write_json(args, "netlists", &compared)?;
     if args.record {
-        update(&[], &compared, None)?;
+        update(&[], &compared)?;
     }
     // One that does not close in time is open, not different.
     let differ = compared.iter().filter(|entry| entry.equivalence.differs());
@@ -273,14 +265,10 @@ fn write_json(
 }
 
 /// Writes into the record of the workspace.
-fn update(proofs: &[Proved], netlists: &[Compared], whole: Option<Whole>) -> Result<(), Failure> {
+fn update(proofs: &[Proved], netlists: &[Compared]) -> Result<(), Failure> {
     let root = root()?;
     let mut record = recorded(&root, record::FILE, read)?;
     record.update(proofs, netlists);
-    if !proofs.is_empty() {
-        // The time of other proofs says nothing of these.
-        record.whole = whole;
-    }
     record.write(&root)?;
     say!("{}: written; now run: wheatstone generate", record::FILE);
     Ok(())

@@ -11,10 +11,11 @@ use super::netlist::{Mutant, Netlist, DESIGN};
 use crate::synth::SynthError;
 use crate::tools::{YOSYS, YOSYS_ABC};
 use std::fmt::Write;
+use std::time::Duration;
 use wheatstone_golden::interface::{Direction, Field, Interface, Stream};
 
-/// Seconds that a proof may take.
-const SECONDS: u32 = 60;
+/// Processor time that a proof may take, merging included.
+const LIMIT: Duration = Duration::from_secs(120);
 
 /// What is known of a mutant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,13 +45,11 @@ impl Netlist {
              abc -g AND -fast; opt_clean; aigmap; write_aiger {file}"
         );
         self.work.run(&YOSYS, self.work.command(&self.yosys).args(["-q", "-p", &script]))?;
-        let proof =
-            format!("read_aiger {file}; strash; lcorr; scorr; pdr -T {SECONDS}; print_status");
-        // Registers alone first: where those of both are the same, so are their multipliers. Merging has no
-        // limit of its own.
+        let proof = format!("read_aiger {file}; strash; lcorr; scorr; pdr; print_status");
+        // Registers alone first: where those of both are the same, so are their multipliers.
         let mut command = self.work.command(&abc);
         command.args(["-c", &proof]);
-        let output = self.work.limited(&YOSYS_ABC, &mut command, 2 * SECONDS)?;
+        let output = self.work.limited(&YOSYS_ABC, &mut command, LIMIT)?;
         if output.is_stopped {
             return Ok(Verdict::Open);
         }

@@ -143,7 +143,7 @@ impl Scores {
             return Some(format!("{what}: not in {FILE}"));
         };
         let tell = || format!("{what}: {}, recorded {}", new.shown(), old.shown());
-        // How many are proved equivalent depends on how busy the machine is; how many are killed does not.
+        // How many are proved equivalent depends on how fast the processor is; how many are killed does not.
         (new.killed < old.killed && new.share() < old.share()).then(tell)
     }
 

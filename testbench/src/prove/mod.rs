@@ -5,21 +5,27 @@
 //! their own proofs: only the file of the module is read with `FORMAL` defined.
 
 mod bugs;
+mod effort;
 mod netlist;
 mod property;
 pub mod record;
+mod task;
 
 pub use bugs::{Bug, BUGS};
+pub use effort::{Effort, LIMIT, SHORT};
 pub use netlist::Equivalence;
 pub use property::{name, properties, Property};
 
 use crate::flow::{self, FlowError, Folder};
 use crate::sources::{self, Sources};
-use crate::tools::{Found, YICES, YOSYS, YOSYS_ABC, YOSYS_SMTBMC};
+use crate::tools;
 use serde::{Deserialize, Serialize};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::Duration;
+use task::{Programs, Run, Task};
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
 
@@ -29,10 +35,46 @@ use wheatstone_golden::targets::Target;
 pub enum Verdict {
     /// It does not hold: it fails so many clocks after the first one.
     Fails(u32),
+    /// A prover was stopped, so that nothing more is known than that there is no counterexample within so many
+    /// clocks from reset.
+    Stopped(u32),
     /// No counterexample within so many clocks from reset.
     Bounded(u32),
     /// Of any number of clocks, by induction over so many.
     Induction(u32),
+}
+
+impl Verdict {
+    /// Whether more might have been found, had the prover not been stopped.
+    pub fn is_stopped(self) -> bool {
+        matches!(self, Verdict::Stopped(_))
+    }
+
+    /// The same of a proof that was cut short: what is known of so many clocks is then not all that could be.
+    fn stopped(self) -> Verdict {
+        match self {
+            Verdict::Bounded(clocks) => Verdict::Stopped(clocks),
+            other => other,
+        }
+    }
+
+    /// The same where so many clocks were tried as well.
+    fn with_clocks(self, clocks: u32) -> Verdict {
+        match self {
+            Verdict::Bounded(before) => Verdict::Bounded(before.max(clocks)),
+            Verdict::Stopped(before) => Verdict::Stopped(before.max(clocks)),
+            other => other,
+        }
+    }
+
+    /// What two proofs of the same property say together.
+    fn or(self, other: Verdict) -> Verdict {
+        match (self, other) {
+            (Verdict::Fails(_), _) => self,
+            (_, Verdict::Fails(_)) => other,
+            _ => self.max(other),
+        }
+    }
 }
 
 /// A module with parameters.
@@ -51,18 +93,23 @@ pub struct Build {
 pub struct Proof {
     /// By the labels of the properties, lemmas included.
     pub verdicts: BTreeMap<String, Verdict>,
-    /// Processor time is not measured: seconds on the clock.
+    /// Processor time of all provers together, in seconds.
     pub seconds: f64,
+    /// Processor time of the one that needed most, in seconds.
+    #[serde(default)]
+    pub longest: f64,
 }
 
 impl Proof {
-    /// Whether a prover was stopped before it had tried all the clocks of an effort.
-    fn was_stopped(&self, effort: Effort) -> bool {
-        let fewer = |(label, verdict): (&String, &Verdict)| match verdict {
-            Verdict::Bounded(clocks) => *clocks < effort.clocks(label),
-            Verdict::Fails(_) | Verdict::Induction(_) => false,
-        };
-        self.verdicts.iter().any(fewer)
+    /// Whether more might have been found, had no prover been stopped.
+    pub fn was_stopped(&self) -> bool {
+        self.verdicts.values().any(|verdict| verdict.is_stopped())
+    }
+
+    /// The labels of what does not hold.
+    pub fn failed(&self) -> impl Iterator<Item = &str> {
+        let fails = |(_, verdict): &(&String, &Verdict)| matches!(verdict, Verdict::Fails(_));
+        self.verdicts.iter().filter(fails).map(|(label, _)| &label[..])
     }
 }
 
@@ -77,74 +124,6 @@ pub enum Catch {
     /// The prover was stopped before it failed.
     Stopped,
 }
-
-/// How far a proof goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
-    /// Clocks of induction that are tried.
-    pub induction: u32,
-    /// Clocks from reset where that does not close.
-    pub bound: u32,
-    /// Labels of properties that are then tried by themselves, and for how many clocks.
-    deep: &'static [(&'static str, u32)],
-}
-
-impl Effort {
-    /// The effort that a module is worth.
-    pub fn of(module: &str) -> Effort {
-        let [induction, bound] = match module {
-            // Without registers one clock is all there is.
-            "clamp" | "popcount" | "setup_check" | "coverage" | "coverage_edge"
-            | "filter_division" => [1, 1],
-            "primary_planes" | "hybrid_planes" => [1, 5],
-            "hybrid" | "stereo" | "mono" | "hybrid_back" => [2, 12],
-            "slot_queue" => [2, 10],
-            "minimal" => [2, 10],
-            "primary" => [2, 14],
-            _ => [3, 10],
-        };
-        let deep: &[(&str, u32)] = match module {
-            "hybrid" | "stereo" | "mono" | "hybrid_back" => &DEEP,
-            // It takes 30 beats to count too many.
-            "filter" => &[("p_range", 33)],
-            _ => &[],
-        };
-        Effort { induction, bound, deep }
-    }
-
-    /// Whether a module is in the short set: those whose first build takes half a minute at most.
-    pub fn is_quick(module: &str) -> bool {
-        !["coverage_edge", "primary_planes", "hybrid_planes"].contains(&module)
-    }
-
-    /// Whether it is that of a module for which one clock is all there is.
-    fn has_no_registers(self) -> bool {
-        self.bound == 1
-    }
-
-    /// What a default test can afford.
-    pub fn quick(self) -> Effort {
-        Effort { bound: self.bound.min(4), deep: &[], ..self }
-    }
-
-    /// The clocks that a property is tried for in the end.
-    fn clocks(&self, label: &str) -> u32 {
-        let deep = self.deep.iter().find(|(deep, _)| *deep == label);
-        deep.map_or(self.bound, |(_, clocks)| *clocks)
-    }
-}
-
-/// Properties of systems that show after more clocks, when each of them is tried by itself.
-const DEEP: [(&str, u32); 5] = [
-    ("p_never_hangs", 30),
-    ("p_left_stable", 18),
-    ("p_right_stable", 18),
-    ("p_request_stable", 18),
-    ("p_stable", 18),
-];
-
-/// Seconds of processor time after which a prover is stopped.
-const LIMIT: u32 = 60;
 
 /// Module, label and parameters of a build.
 type Variant = (&'static str, &'static str, &'static [(&'static str, u32)]);
@@ -177,21 +156,25 @@ const EIGHT_SLOTS_FILTERED: &[(&str, u32)] =
 /// Runs the provers and keeps what they find.
 #[derive(Debug)]
 pub struct Prover {
-    /// Folder of the Verilog.
-    pub rtl: PathBuf,
-    /// Folder of the cache, created when needed.
-    pub cache: PathBuf,
-}
-
-/// The programs of a proof.
-struct Programs {
-    yosys: Found,
-    smtbmc: Found,
-    yices: Found,
-    abc: Found,
+    rtl: PathBuf,
+    cache: PathBuf,
+    path: OsString,
+    limit: Duration,
 }
 
 impl Prover {
+    /// Proves the Verilog in the folder `rtl`; what it finds is kept in the folder `cache`, created when needed.
+    pub fn new(rtl: impl Into<PathBuf>, cache: impl Into<PathBuf>) -> Prover {
+        let (rtl, cache) = (rtl.into(), cache.into());
+        Prover { rtl, cache, path: tools::search_path(), limit: LIMIT }
+    }
+
+    /// The same with the programs in the folders of `path`, a list as in the variable `PATH`, and with another
+    /// limit of processor time than [`LIMIT`].
+    pub fn with(self, path: impl Into<OsString>, limit: Duration) -> Prover {
+        Prover { path: path.into(), limit, ..self }
+    }
+
     /// The cache that the programs of this workspace use, seen from the workspace's folder.
     pub const CACHE: &'static str = "target/wheatstone/prove";
 
@@ -243,21 +226,30 @@ impl Prover {
         Ok(builds)
     }
 
-    /// Proves what can be proved of a build.
+    /// Proves what can be proved of a build. What was cut short is not kept.
     pub fn prove(&self, build: &Build, effort: Effort) -> Result<Proof, FlowError> {
         let sources = self.sources(&build.module)?;
-        let programs = Programs::find()?;
+        let programs = self.programs()?;
         let commands = read_commands(&sources, build);
-        let effort_text = format!("{effort:?} {LIMIT}");
-        let keep = |proof: &Proof| !proof.was_stopped(effort);
+        let effort_text = format!("{effort:?} {:?}", self.limit);
+        let keep = |proof: &Proof| !proof.was_stopped();
         self.cached(build, &sources, &programs, &[&commands, &effort_text], keep, |folder| {
-            let started = Instant::now();
-            let task =
-                Task { folder, programs: &programs, module: format!("sam_{}", build.module) };
-            task.read(&commands)?;
+            let task = self.task(folder, &programs, build);
+            task.read(&commands, effort.left_out)?;
             let verdicts = task.prove(effort)?;
-            Ok(Proof { verdicts, seconds: tenths(started) })
+            let used = task.used.take();
+            let longest = tenths(used.iter().max().copied().unwrap_or_default());
+            Ok(Proof { verdicts, seconds: tenths(used.iter().sum()), longest })
         })
+    }
+
+    fn programs(&self) -> Result<Programs, FlowError> {
+        Programs::find_in(&self.path)
+    }
+
+    fn task<'a>(&self, folder: &'a Folder, programs: &'a Programs, build: &Build) -> Task<'a> {
+        let (module, limit) = (format!("sam_{}", build.module), self.limit);
+        Task { folder, programs, module, limit, used: RefCell::default() }
     }
 
     /// Whether a bug is caught by the property that is to catch it, that one alone. Without the bug it must
@@ -284,7 +276,7 @@ impl Prover {
         let own = proof.verdicts.iter().filter(|(label, _)| name(label) == Some(bug.property));
         Ok(own.map(|(_, verdict)| *verdict).all(|verdict| match verdict {
             Verdict::Induction(_) => true,
-            Verdict::Bounded(reached) => reached >= clocks,
+            Verdict::Bounded(reached) | Verdict::Stopped(reached) => reached >= clocks,
             Verdict::Fails(_) => false,
         }))
     }
@@ -299,14 +291,13 @@ impl Prover {
     /// Where a bug's property fails, within so many clocks.
     fn fails(&self, bug: &Bug, sources: &Sources, bound: u32) -> Result<Catch, FlowError> {
         let build = &self.build(bug)?;
-        let programs = Programs::find()?;
+        let programs = self.programs()?;
         let commands = read_commands(sources, build);
         let what = format!("{} {bound}", bug.property);
         let keep = |caught: &Catch| *caught != Catch::Stopped;
         self.cached(build, sources, &programs, &[&commands, &what], keep, |folder| {
-            let task =
-                Task { folder, programs: &programs, module: format!("sam_{}", build.module) };
-            task.read(&commands)?;
+            let task = self.task(folder, &programs, build);
+            task.read(&commands, &[])?;
             let all = task.labels()?;
             let (kept, others): (Vec<_>, Vec<_>) =
                 all.into_iter().partition(|label| name(label) == Some(bug.property));
@@ -314,7 +305,9 @@ impl Prover {
                 return Err(bug.fault("there is no such property"));
             }
             // What is proved so takes long to be tried for a counterexample.
-            if Effort::of(bug.module).has_no_registers() && task.holds_in_every_state()? {
+            if Effort::of(bug.module).has_no_registers()
+                && task.holds_in_every_state()? == Some(true)
+            {
                 return Ok(Catch::Not);
             }
             match task.bounded(&others, bound)? {
@@ -345,9 +338,9 @@ impl Prover {
     }
 }
 
-/// Seconds since then, to a tenth.
-fn tenths(started: Instant) -> f64 {
-    (started.elapsed().as_secs_f64() * 10.0).round() / 10.0
+/// In seconds, to a tenth.
+fn tenths(time: Duration) -> f64 {
+    (time.as_secs_f64() * 10.0).round() / 10.0
 }
 
 /// The parameters of a module in a configuration.
@@ -379,211 +372,4 @@ fn read_commands(sources: &Sources, build: &Build) -> String {
         "{plain}read_verilog -formal -I . {own}; {set}prep -top {module} -flatten; rename -top {module}; \
          memory_map; opt_clean; async2sync; dffunmap"
     )
-}
-
-impl Programs {
-    fn find() -> Result<Programs, FlowError> {
-        let (yosys, smtbmc) = (YOSYS.find()?, YOSYS_SMTBMC.find()?);
-        Ok(Programs { yosys, smtbmc, yices: YICES.find()?, abc: YOSYS_ABC.find()? })
-    }
-}
-
-/// What came of a run of the prover.
-enum Run {
-    /// It holds; the clocks of induction that were needed.
-    Passed(u32),
-    /// These do not hold after so many clocks.
-    Failed { step: u32, labels: Vec<String> },
-    /// Stopped after so many clocks.
-    Stopped(u32),
-}
-
-/// A proof in a folder.
-struct Task<'a> {
-    folder: &'a Folder,
-    programs: &'a Programs,
-    module: String,
-}
-
-impl Task<'_> {
-    /// Reads the Verilog, for all runs.
-    fn read(&self, commands: &str) -> Result<(), FlowError> {
-        let script =
-            format!("{commands}; tee -q -o labels select -list t:$assert; write_ilang base.il");
-        let mut command = self.folder.command(&self.programs.yosys);
-        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))
-    }
-
-    /// The labels of all assertions.
-    fn labels(&self) -> Result<Vec<String>, FlowError> {
-        let text = self.folder.read("labels")?;
-        let names = text.lines().filter_map(|line| line.trim().split_once('/'));
-        Ok(names.map(|(_, name)| name.to_owned()).collect())
-    }
-
-    /// All properties, then the deep ones for more clocks.
-    fn prove(&self, effort: Effort) -> Result<BTreeMap<String, Verdict>, FlowError> {
-        let labels = self.labels()?;
-        let mut verdicts = self.prove_all(&labels, effort)?;
-        for (label, verdict) in &mut verdicts {
-            let clocks = effort.clocks(label);
-            let Verdict::Bounded(so_far) = *verdict else { continue };
-            if clocks > effort.bound {
-                let others: Vec<String> = labels.iter().filter(|l| *l != label).cloned().collect();
-                *verdict = match self.bounded(&others, clocks)? {
-                    Run::Passed(_) => Verdict::Bounded(clocks),
-                    Run::Failed { step, .. } => Verdict::Fails(step),
-                    Run::Stopped(reached) => Verdict::Bounded(reached.max(so_far)),
-                };
-            }
-        }
-        Ok(verdicts)
-    }
-
-    /// All properties together or, where that takes too long, each by itself with the lemmas.
-    fn prove_all(
-        &self,
-        labels: &[String],
-        effort: Effort,
-    ) -> Result<BTreeMap<String, Verdict>, FlowError> {
-        let (alone, lemmas): (Vec<_>, Vec<_>) =
-            labels.iter().cloned().partition(|label| name(label).is_some());
-        if effort.has_no_registers() && self.holds_in_every_state()? {
-            return Ok(labels.iter().map(|label| (label.clone(), Verdict::Induction(0))).collect());
-        }
-        // Without registers nothing is gained by proving all at once.
-        if effort.induction > 1 || alone.len() == 1 {
-            let (verdicts, stopped) = self.prove_some(labels, &[], effort)?;
-            if !stopped || alone.len() == 1 {
-                return Ok(verdicts);
-            }
-        }
-        let mut all = BTreeMap::new();
-        for label in &alone {
-            let others: Vec<String> = alone.iter().filter(|l| *l != label).cloned().collect();
-            let with_it: Vec<String> = lemmas.iter().chain([label]).cloned().collect();
-            all.extend(self.prove_some(&with_it, &others, effort)?.0);
-        }
-        Ok(all)
-    }
-
-    /// Induction of what can be proved so, then so many clocks from reset; also whether a prover was
-    /// stopped. The assertions are `labels`, those that there are without `others`.
-    fn prove_some(
-        &self,
-        labels: &[String],
-        others: &[String],
-        effort: Effort,
-    ) -> Result<(BTreeMap<String, Verdict>, bool), FlowError> {
-        // What fails is left out until the rest is an induction.
-        let mut left_out = others.to_vec();
-        let mut stopped = false;
-        let depth = loop {
-            if left_out.len() == others.len() + labels.len() {
-                break 0;
-            }
-            match self.run(&left_out, &["-i"], effort.induction)? {
-                Run::Passed(depth) => break depth,
-                Run::Failed { labels, .. } if !labels.is_empty() => left_out.extend(labels),
-                run => {
-                    stopped = matches!(run, Run::Stopped(_));
-                    left_out.extend_from_slice(labels);
-                    break 0;
-                }
-            }
-        };
-        let is_inductive = |label: &String| !left_out.contains(label);
-        let inductive = |label: &String| (label.clone(), Verdict::Induction(depth));
-        // What holds in every state needs no base.
-        if depth == 0 && labels.iter().all(is_inductive) {
-            return Ok((labels.iter().map(inductive).collect(), false));
-        }
-        // One clock that took too long takes too long again.
-        if stopped && effort.bound == 1 {
-            let open = |label: &String| (label.clone(), Verdict::Bounded(0));
-            return Ok((labels.iter().map(open).collect(), true));
-        }
-        let bound = match labels.iter().all(is_inductive) {
-            true => effort.induction,
-            false => effort.bound,
-        };
-        let (reached, failed) = match self.bounded(others, bound)? {
-            Run::Passed(_) => (bound, Vec::new()),
-            Run::Failed { step, labels } => (step, labels),
-            Run::Stopped(reached) => {
-                stopped = true;
-                (reached, Vec::new())
-            }
-        };
-        let verdict = |label: &String| match is_inductive(label) {
-            _ if failed.contains(label) => (label.clone(), Verdict::Fails(reached)),
-            true if reached >= effort.induction => inductive(label),
-            _ => (label.clone(), Verdict::Bounded(reached)),
-        };
-        Ok((labels.iter().map(verdict).collect(), stopped))
-    }
-
-    /// So many clocks from reset.
-    fn bounded(&self, left_out: &[String], clocks: u32) -> Result<Run, FlowError> {
-        // A contradiction among the assumptions would prove anything.
-        self.run(left_out, &["--presat"], clocks)
-    }
-
-    /// Whether all assertions of a module without registers are proved by merging gates that are equal,
-    /// which finds sums to be the same in whatever order they are formed.
-    fn holds_in_every_state(&self) -> Result<bool, FlowError> {
-        let script = format!(
-            "read_ilang base.il; miter -assert -flatten {} miter; hierarchy -top miter; \
-             opt -full; techmap; opt -fast; abc -g AND -fast; opt_clean; aigmap; \
-             write_aiger -zinit miter.aig",
-            self.module
-        );
-        let mut command = self.folder.command(&self.programs.yosys);
-        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
-        let proof = "read_aiger miter.aig; strash; comb; fraig; iprove; print_status";
-        let mut command = self.folder.command(&self.programs.abc);
-        let output = self.folder.limited(&YOSYS_ABC, command.args(["-c", proof]), LIMIT)?;
-        Ok(String::from_utf8_lossy(&output.stdout).contains("Status = 1 "))
-    }
-
-    /// Runs the prover without some assertions.
-    fn run(&self, left_out: &[String], mode: &[&str], clocks: u32) -> Result<Run, FlowError> {
-        let deleted: String =
-            left_out.iter().map(|label| format!("delete {}/{label}; ", self.module)).collect();
-        let script = format!("read_ilang base.il; {deleted}write_smt2 -wires model.smt2");
-        let mut command = self.folder.command(&self.programs.yosys);
-        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
-        let mut command = self.folder.command(&self.programs.smtbmc);
-        command.args(["-s", "yices"]).args(mode).args(["-t", &clocks.to_string(), "model.smt2"]);
-        let output = self.folder.limited(&YOSYS_SMTBMC, &mut command, LIMIT)?;
-        let text = String::from_utf8_lossy(&output.stdout);
-        let step = step(&text).unwrap_or(0);
-        if text.contains("Status: PASSED") {
-            // Induction counts its steps down.
-            return Ok(Run::Passed(clocks.saturating_sub(step)));
-        }
-        if text.contains("Status: FAILED") {
-            let labels = text.lines().filter_map(|line| {
-                line.split_once("Assert failed in ")?
-                    .1
-                    .split_once(": ")
-                    .map(|(_, name)| name.trim())
-            });
-            let labels: Vec<String> = labels.map(str::to_owned).collect();
-            if labels.is_empty() && !mode.contains(&"-i") {
-                return Err(self.folder.failed(&YOSYS_SMTBMC, &text));
-            }
-            return Ok(Run::Failed { step, labels });
-        }
-        match output.is_stopped {
-            true => Ok(Run::Stopped(step)),
-            false => Err(self.folder.failed(&YOSYS_SMTBMC, &output.said())),
-        }
-    }
-}
-
-/// The last step that the prover has spoken of.
-fn step(text: &str) -> Option<u32> {
-    let last = text.rfind(" in step ").map(|at| &text[at + " in step ".len()..])?;
-    last.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
 }

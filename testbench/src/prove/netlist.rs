@@ -1,11 +1,10 @@
 //! Netlists of gates against the Verilog that they were made of: the same for ever, by induction over
 //! the registers, which synthesis leaves their names.
 
-use super::{tenths, Prover, LIMIT};
+use super::{tenths, Prover};
 use crate::flow::{self, FlowError};
 use crate::tools::YOSYS;
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
 
@@ -16,7 +15,7 @@ pub struct Equivalence {
     pub points: u32,
     /// Those of them that were not proved equal.
     pub open: u32,
-    /// On the clock.
+    /// Processor time.
     pub seconds: f64,
 }
 
@@ -40,13 +39,12 @@ impl Prover {
         let sources = self.sources(target.name())?;
         let yosys = YOSYS.find()?;
         let script = script(&flow::read_commands(&sources, module, &interface.parameters), module);
-        let limit = LIMIT.to_string();
+        let limit = format!("{:?}", self.limit);
         let inputs = [&yosys.text, &script, &limit].map(|text| text.as_bytes());
         let keep = |found: &Equivalence| found.points > 0;
         flow::cached(&self.cache, module, &sources, &inputs, keep, |folder| {
-            let started = Instant::now();
             let mut command = folder.command(&yosys);
-            let output = folder.limited(&YOSYS, command.args(["-q", "-p", &script]), LIMIT)?;
+            let output = folder.limited(&YOSYS, command.args(["-q", "-p", &script]), self.limit)?;
             let (points, open) = if output.is_stopped {
                 (0, 0)
             } else if output.succeeded() {
@@ -55,7 +53,7 @@ impl Prover {
             } else {
                 return Err(folder.failed(&YOSYS, &output.said()));
             };
-            Ok(Equivalence { points, open, seconds: tenths(started) })
+            Ok(Equivalence { points, open, seconds: tenths(output.processor) })
         })
     }
 }

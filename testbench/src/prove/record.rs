@@ -1,6 +1,6 @@
 //! The committed record of what is proved, and the tables of `docs/formal.md`.
 
-use super::{properties, Build, Effort, Equivalence, Proof, Verdict};
+use super::{properties, Build, Effort, Equivalence, Proof, Verdict, SHORT};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -72,43 +72,21 @@ pub struct RecordError {
     pub why: String,
 }
 
-/// Whether the clocks of bounded proofs count where they are compared.
+/// What was tried of that which a record says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Clocks {
-    /// They do.
-    Count,
-    /// They do not.
-    Ignore,
+pub enum Extent {
+    /// Everything.
+    All,
+    /// The short set: fewer clocks, and not the properties that take long.
+    Short,
 }
 
-/// What a run that proved everything anew took.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Whole {
-    /// Seconds on the clock.
-    pub seconds: f64,
-    /// Provers at a time.
-    pub cores: usize,
-}
-
-impl Whole {
-    /// Seconds that it may take with two provers.
-    pub const LIMIT: f64 = 20.0 * 60.0;
-
-    /// That it took too long, if it did.
-    pub fn fault(self) -> Option<String> {
-        let Whole { seconds, cores } = self;
-        let limit = 2.0 * Whole::LIMIT / cores as f64;
-        let slow =
-            || format!("everything: {seconds:.0} s with {cores} provers, not below {limit:.0}");
-        (seconds >= limit).then(slow)
-    }
-}
+/// Seconds of processor time that proving everything may take.
+const WHOLE: f64 = 40.0 * 60.0;
 
 /// Everything that was proved.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// What all properties took, proved in one run.
-    pub whole: Option<Whole>,
     /// Properties, by module and build.
     pub proofs: Vec<Proved>,
     /// Netlists, by target and configuration.
@@ -128,8 +106,7 @@ impl Record {
     /// Writes it, an entry a line, so that a change shows as such.
     pub fn write(&self, workspace: &Path) -> Result<(), WriteError> {
         let text = format!(
-            "{{\n\"whole\": {},\n\"proofs\": [\n{}\n],\n\"netlists\": [\n{}\n]\n}}\n",
-            serde_json::to_string(&self.whole).unwrap_or_default(),
+            "{{\n\"proofs\": [\n{}\n],\n\"netlists\": [\n{}\n]\n}}\n",
             lines(&self.proofs),
             lines(&self.netlists)
         );
@@ -148,12 +125,12 @@ impl Record {
 
     /// What is proved for less than the record says, a line each; also what is not in it. Where fewer clocks
     /// were tried than for the record, their number does not count. Clocks that are tried at the end, one
-    /// property after the other, depend on how busy the machine is, and do not count either.
-    pub fn faults(&self, proofs: &[Proved], clocks: Clocks) -> Vec<String> {
-        let worth = |verdict: Verdict| match (verdict, clocks) {
+    /// property after the other, depend on how fast the processor is, and do not count either.
+    pub fn faults(&self, proofs: &[Proved], extent: Extent) -> Vec<String> {
+        let worth = |verdict: Verdict| match (verdict, extent) {
             (Verdict::Fails(_), _) => (0, 0),
-            (Verdict::Bounded(bound), Clocks::Count) => (1, bound),
-            (Verdict::Bounded(_), Clocks::Ignore) => (1, 0),
+            (Verdict::Bounded(bound) | Verdict::Stopped(bound), Extent::All) => (1, bound),
+            (Verdict::Bounded(_) | Verdict::Stopped(_), Extent::Short) => (1, 0),
             (Verdict::Induction(_), _) => (2, 0),
         };
         let mut faults = Vec::new();
@@ -165,10 +142,12 @@ impl Record {
                 continue;
             };
             let sure = (1, Effort::of(&new.module).bound);
-            for (label, verdict) in &old.proof.verdicts {
+            let left_out = Effort::quick(&new.module).map_or(&[][..], |effort| effort.left_out);
+            let is_tried = |label: &str| extent == Extent::All || !left_out.contains(&label);
+            for (label, verdict) in old.proof.verdicts.iter().filter(|(label, _)| is_tried(label)) {
                 let now = new.proof.verdicts.get(label);
                 let enough = match verdict {
-                    Verdict::Bounded(_) => worth(*verdict).min(sure),
+                    Verdict::Bounded(_) | Verdict::Stopped(_) => worth(*verdict).min(sure),
                     _ => worth(*verdict),
                 };
                 if now.map_or((0, 0), |now| worth(*now)) < enough {
@@ -219,11 +198,10 @@ impl Record {
         text
     }
 
-    /// What a whole run takes.
+    /// What proving everything takes.
     pub fn time(&self) -> String {
-        let Some(Whole { seconds, cores }) = self.whole else { return "\nNot measured.\n".into() };
-        let minutes = seconds / 60.0;
-        format!("\nEverything, proved anew, took {minutes:.1} minutes with {cores} provers at a time.\n")
+        let minutes = seconds(&self.proofs) / 60.0;
+        format!("\nProvers need {minutes:.1} minutes of processor time for everything.\n")
     }
 
     /// The table of netlists.
@@ -234,7 +212,7 @@ impl Record {
         for Compared { target, config, equivalence } in &self.netlists {
             let Equivalence { points, open, seconds } = equivalence;
             let points = match points {
-                0 => "does not close".into(),
+                0 => "stopped".into(),
                 points => points.to_string(),
             };
             // Writing to a string cannot fail.
@@ -249,6 +227,31 @@ fn lines<T: Serialize>(entries: &[T]) -> String {
     lines.collect::<Vec<_>>().join(",\n")
 }
 
+/// Processor time of proofs.
+fn seconds(proofs: &[Proved]) -> f64 {
+    proofs.iter().map(|proved| proved.proof.seconds).sum()
+}
+
+/// That proofs took more processor time than they may, a line each: everything 40 minutes, which is 20 on two
+/// processors; in the short set no prover more than [`SHORT`].
+pub fn slow(proofs: &[Proved], extent: Extent) -> Vec<String> {
+    if extent == Extent::All {
+        let taken = seconds(proofs);
+        let tell = || format!("everything: {taken:.0} s of processor time, not below {WHOLE:.0}");
+        return (taken >= WHOLE).then(tell).into_iter().collect();
+    }
+    let short = SHORT.as_secs_f64();
+    let is_slow = |proved: &&Proved| proved.proof.longest > short;
+    let tell = |Proved { module, build, proof }: &Proved| {
+        format!(
+            "{module} ({build}): a prover took {:.1} s of processor time, more than {short:.0}: leave what it \
+             proved out of the short set, in prove/effort.rs",
+            proof.longest
+        )
+    };
+    proofs.iter().filter(is_slow).map(tell).collect()
+}
+
 fn told(proved: &Proved) -> String {
     format!("{} in {:.1} s", proved.build, proved.proof.seconds)
 }
@@ -257,7 +260,8 @@ fn told(proved: &Proved) -> String {
 pub fn shown(verdict: Verdict) -> String {
     match verdict {
         Verdict::Fails(step) => format!("**fails** at {step}"),
-        Verdict::Bounded(0) => "open".into(),
+        Verdict::Stopped(0) => "stopped".into(),
+        Verdict::Stopped(clocks) => format!("stopped after {clocks} clocks"),
         Verdict::Bounded(clocks) => format!("{clocks} clocks"),
         Verdict::Induction(_) => "always".into(),
     }
@@ -269,7 +273,7 @@ mod tests {
 
     fn proved(verdict: Verdict) -> Proved {
         let verdicts = BTreeMap::from([("p_stable".to_owned(), verdict)]);
-        let proof = Proof { verdicts, seconds: 1.0 };
+        let proof = Proof { verdicts, seconds: 1.0, longest: 0.5 };
         Proved { module: "stage".into(), build: "default".into(), proof }
     }
 
@@ -277,25 +281,46 @@ mod tests {
     fn what_is_proved_for_less_is_told() {
         let proofs = vec![proved(Verdict::Bounded(10))];
         let record = Record { proofs, ..Record::default() };
-        let faults = |verdict, clocks| record.faults(&[proved(verdict)], clocks);
+        let faults = |verdict, extent| record.faults(&[proved(verdict)], extent);
         for good in [Verdict::Bounded(10), Verdict::Bounded(11), Verdict::Induction(1)] {
-            assert_eq!(faults(good, Clocks::Count), [""; 0]);
+            assert_eq!(faults(good, Extent::All), [""; 0]);
         }
         let fewer = "stage (default): p_stable: 9 clocks, recorded 10 clocks";
-        assert_eq!(faults(Verdict::Bounded(9), Clocks::Count), [fewer]);
-        assert_eq!(faults(Verdict::Bounded(4), Clocks::Ignore), [""; 0]);
-        assert_eq!(faults(Verdict::Fails(2), Clocks::Ignore).len(), 1);
+        assert_eq!(faults(Verdict::Bounded(9), Extent::All), [fewer]);
+        assert_eq!(faults(Verdict::Bounded(4), Extent::Short), [""; 0]);
+        assert_eq!(faults(Verdict::Fails(2), Extent::Short).len(), 1);
         let other = Proved { build: "paper".into(), ..proved(Verdict::Induction(1)) };
         let unknown = format!("stage (paper): not in {FILE}");
-        assert_eq!(record.faults(&[other], Clocks::Ignore), [unknown]);
+        assert_eq!(record.faults(&[other], Extent::Short), [unknown]);
     }
 
     #[test]
-    fn a_run_that_takes_too_long_is_told() {
-        let fault = |seconds, cores| Whole { seconds, cores }.fault();
-        assert_eq!(fault(1199.0, 2), None);
-        let told = "everything: 1200 s with 2 provers, not below 1200";
-        assert_eq!(fault(1200.0, 2).as_deref(), Some(told));
-        assert!(fault(601.0, 4).is_some());
+    fn a_prover_that_was_stopped_is_told_as_such() {
+        let record = |verdict| Record { proofs: vec![proved(verdict)], ..Record::default() };
+        let stopped = [proved(Verdict::Stopped(10))];
+        let always = record(Verdict::Induction(2));
+        for extent in [Extent::All, Extent::Short] {
+            let told = "stage (default): p_stable: stopped after 10 clocks, recorded always";
+            assert_eq!(always.faults(&stopped, extent), [told]);
+        }
+        // It has shown as much.
+        assert_eq!(record(Verdict::Bounded(10)).faults(&stopped, Extent::All), [""; 0]);
+        assert_eq!(shown(Verdict::Stopped(0)), "stopped");
+    }
+
+    #[test]
+    fn proofs_that_take_too_long_are_told() {
+        let taking = |seconds, longest| {
+            let mut proved = proved(Verdict::Induction(1));
+            (proved.proof.seconds, proved.proof.longest) = (seconds, longest);
+            proved
+        };
+        let most = [taking(1200.0, 60.0), taking(1199.0, 60.0)];
+        assert_eq!(slow(&most, Extent::All), [""; 0]);
+        let told = "everything: 2400 s of processor time, not below 2400";
+        assert_eq!(slow(&[taking(1200.0, 1.0), taking(1200.0, 1.0)], Extent::All), [told]);
+        assert_eq!(slow(&[taking(100.0, 12.0)], Extent::Short), [""; 0]);
+        let told = &slow(&[taking(13.0, 12.1)], Extent::Short)[0];
+        assert!(told.starts_with("stage (default): a prover took 12.1 s"), "{told}");
     }
 }
