@@ -155,49 +155,31 @@ map_Kd picture.png
 ";
 
 #[test]
-fn broken_meshes_and_materials_are_refused_by_line_and_field() {
+fn broken_meshes_are_refused_by_line_and_field() {
     let cases: &[(&str, &str, &[&str])] = &[
-        ("v 2 1 0", "v 2 1", &["mesh.obj:5: v: expected 3 to 6 numbers, found 2"]),
+        ("v 2 1 0", "v 2 1", &["mesh.obj:5: v: expected at least 3 numbers, found 2"]),
         ("v 2 1 0", "v 2 x 0", &["mesh.obj:5: v: expected a number, found x"]),
-        ("v 2 1 0", "v 2 NaN 0", &["mesh.obj:5: v: expected finite numbers", "NaN"]),
-        ("v 2 1 0", "v 2 inf 0", &["mesh.obj:5: v: expected finite numbers", "inf"]),
-        ("v 2 1 0", "v 2 1e10 0", &["mesh.obj:5: v: expected finite numbers", "1e10"]),
-        ("v 2 1 0", "v 2 1 0 0", &["mesh.obj:5: v: expected finite coordinates"]),
-        ("v 2 1 0", "v 2 1 0 1 1", &["mesh.obj:5: v: expected 3, 4 or 6 numbers"]),
-        ("v 2 1 0", "v 2 1 0 1 1 1", &["mesh.obj:5: v: expected a colour at every vertex"]),
-        ("v 0 0 0", "v 0 0 0 1 1 2", &["mesh.obj:3: v: expected a colour", "0 to 1"]),
-        ("vt 1 1", "vt", &["mesh.obj:8: vt: expected 1 to 3 numbers, found 0"]),
-        ("vt 1 1", "vt 1 5000", &["mesh.obj:8: vt", "5000"]),
-        ("vn 0 0 1", "vn 0 0", &["mesh.obj:9: vn: expected 3 numbers, found 2"]),
-        ("f -4 -3 -2", "f 1 2", &["mesh.obj:12: f: expected three corners or more, found 2"]),
+        ("v 2 1 0", "v 2 1,5 0", &["mesh.obj:5: v: expected a number, found 1,5"]),
+        ("v 2 1 0", "v 2 NaN 0", &["mesh.obj:5: v: expected finite coordinates", "NaN"]),
+        ("v 2 1 0", "v 2 inf 0", &["mesh.obj:5: v: expected finite coordinates", "inf"]),
+        ("v 2 1 0", "v 2 1.#QNAN 0", &["mesh.obj:5: v: expected finite coordinates", "1.#QNAN"]),
+        ("v 2 1 0", "v 2 1e10 0", &["mesh.obj:5: v: expected finite coordinates", "1e10"]),
+        ("vt 1 1", "vt", &["mesh.obj:8: vt: expected at least 1 number, found 0"]),
+        ("vt 1 1", "vt 1 x", &["mesh.obj:8: vt: expected a number, found x"]),
+        ("vn 0 0 1", "vn 0 0", &["mesh.obj:9: vn: expected at least 3 numbers, found 2"]),
         ("f -4 -3 -2", "f 1 2 5", &["mesh.obj:12: f: expected an index of the 4 vertices", "5"]),
         ("f -4 -3 -2", "f 0 1 2", &["mesh.obj:12: f", "found 0"]),
-        ("f -4 -3 -2", "f -5 1 2", &["mesh.obj:12: f", "found -5"]),
-        ("f -4 -3 -2", "f 1/3 2/1 3/1", &["mesh.obj:12: f", "2 texture coordinates", "3"]),
-        ("f -4 -3 -2", "f 1//2 2//1 3//1", &["mesh.obj:12: f", "1 normals", "2"]),
-        ("f -4 -3 -2", "f 1/1 2 3", &["mesh.obj:12: f: expected corners that are all of one form"]),
+        ("f -4 -3 -2", "f -5 1 2", &["mesh.obj:12: f: expected an index of the 4 vertices so far"]),
+        ("f -4 -3 -2", "f 1 2 5000000000", &["mesh.obj:12: f", "found 5000000000"]),
         ("f -4 -3 -2", "f 1/1/1/1 2 3", &["mesh.obj:12: f: expected vertex/texture/normal"]),
         ("f -4 -3 -2", "f /1 2 3", &["mesh.obj:12: f: expected the index of a vertex"]),
         ("f -4 -3 -2", "f 1.5 2 3", &["mesh.obj:12: f: expected whole numbers", "1.5"]),
-        ("mtllib m.mtl", "mtllib n.mtl", &["mesh.obj:2: mtllib", "n.mtl, which is not there"]),
-        ("mtllib m.mtl", "mtllib", &["mesh.obj:2: mtllib: expected a name, found nothing"]),
-        ("usemtl red", "usemtl blue", &["mesh.obj:10: usemtl", "red, glass", "found blue"]),
-        ("usemtl red", "usemtl glass", &["m.mtl:9: map_Kd: expected a PNG", "picture.png"]),
-        ("Kd 1 0 0", "Kd 1 0", &["m.mtl:2: Kd: expected one or three numbers"]),
-        ("Kd 1 0 0", "Kd spectral x.rfl", &["m.mtl:2: Kd: expected a number, found spectral"]),
-        ("Kd 1 0 0", "Kd 1 -1 0", &["m.mtl:2: Kd"]),
-        ("Ns 20", "Ns shiny", &["m.mtl:4: Ns: expected a number, found shiny"]),
-        ("Tr 0.25", "d 1.5", &["m.mtl:8: d: expected a number from 0 to 1, found 1.5"]),
-        ("illum 3", "illum x", &["m.mtl:5: illum"]),
-        ("newmtl red\n", "", &["m.mtl:1: Kd: expected newmtl first"]),
-        ("newmtl red", "newmtl", &["m.mtl:1: newmtl: expected a name"]),
-        ("picture.png", "-s 2 2 picture.png", &["m.mtl:9: map_Kd", "without options"]),
     ];
     let folder = Folder::new();
+    folder.put("m.mtl", MATERIALS);
     for (from, to, texts) in cases {
-        assert!(MESH.contains(from) || MATERIALS.contains(from), "{from}");
+        assert!(MESH.contains(from), "{from}");
         let path = folder.put("mesh.obj", &MESH.replacen(from, to, 1));
-        folder.put("m.mtl", &MATERIALS.replacen(from, to, 1));
         let error = load(&path).expect_err(to);
         for text in *texts {
             assert!(error.contains(text), "{to}: “{error}” does not say “{text}”");
@@ -207,10 +189,94 @@ fn broken_meshes_and_materials_are_refused_by_line_and_field() {
         let error = load(&folder.put("empty.obj", text)).expect_err(text);
         assert!(error.contains("empty.obj: f: expected at least one face, found none"), "{error}");
     }
+    for (bytes, name) in [(b"\xff\xfev\0 \0", "UTF-16"), (b"v\0\0\0 \0", "UTF-32")] {
+        let path = folder.put("wide.obj", "");
+        fs::write(&path, bytes).expect("written");
+        let error = load(&path).expect_err(name);
+        assert!(
+            error.contains("wide.obj: file: expected UTF-8 text, found ") && error.contains(name)
+        );
+    }
+}
+
+/// The one warning of a scene.
+fn warning(scene: &Scene) -> String {
+    let lines = scene.warnings.lines();
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    lines.into_iter().next().unwrap_or_default()
+}
+
+#[test]
+fn what_is_not_followed_is_a_warning_with_file_and_line() {
+    let cases: &[(&str, &str, &str)] = &[
+        ("v 2 1 0", "v 2 1 0 0", "mesh.obj:5: v 2 1 0 0: w makes the place infinite"),
+        ("v 2 1 0", "v 2 1 0 1 1", "mesh.obj:5: v 2 1 0 1 1: neither 3, 4, 6 nor 7 numbers"),
+        ("v 2 1 0", "v 2 1 0 1 nan 1", "mesh.obj:5: v 2 1 0 1 nan 1: the colour is not finite"),
+        ("vt 1 1", "vt inf", "mesh.obj:8: vt inf: not finite"),
+        ("vn 0 0 1", "vn 0 -nan(ind) 1", "mesh.obj:9: vn 0 -nan(ind) 1: not finite"),
+        ("f -4 -3 -2", "f 1 2", "mesh.obj:12: f 1 2: fewer than three corners"),
+        ("f -4 -3 -2", "f 1/3 2/1 3/1", "mesh.obj:12: f: no such texture point"),
+        ("f -4 -3 -2", "f 1/0 2/1 3/1", "mesh.obj:12: f: no such texture point"),
+        ("f -4 -3 -2", "f 1//2 2//1 3//1", "mesh.obj:12: f: no such normal"),
+        ("f -4 -3 -2", "f 1/1 2 3", "mesh.obj:12: f: texture points at some corners alone"),
+        ("f -4 -3 -2", "f 1//1 2 3", "mesh.obj:12: f: normals at some corners alone"),
+        ("f -4 -3 -2", "F 1 2 3\np 1", "mesh.obj:13: p 1: not drawn"),
+        ("f -4 -3 -2", "fo 1 2 3\nface 1", "mesh.obj:13: face 1: no statement of OBJ"),
+        ("mtllib m.mtl", "mtllib n.mtl", "mesh.obj:2: mtllib n.mtl: no such library"),
+        ("mtllib m.mtl", "mtllib m.mtl n.mtl", "mesh.obj:2: mtllib n.mtl: no such library"),
+        ("mtllib m.mtl", "mtllib m.mtl\nmtllib", "mesh.obj:3: mtllib: no library is named"),
+        ("usemtl red", "usemtl blue", "mesh.obj:10: usemtl blue: no such material"),
+        ("mtllib m.mtl\n", "", "mesh.obj:9: usemtl red: no such material"),
+        ("usemtl red", "usemtl glass", "m.mtl:9: map_Kd picture.png: no such picture"),
+        ("Kd 1 0 0", "Kd 1 0", "m.mtl:2: Kd 1 0: neither one nor three"),
+        ("Kd 1 0 0", "Kd spectral x.rfl", "m.mtl:2: Kd spectral x.rfl: neither one nor three"),
+        ("Kd 1 0 0", "Kd nan nan nan", "m.mtl:2: Kd nan nan nan: neither one nor three"),
+        ("Ns 20", "Ns shiny", "m.mtl:4: Ns shiny: no finite number"),
+        ("Ns 20", "Ns 20\nmap_d", "m.mtl:5: map_d: no picture is named"),
+        ("Ns 20", "Ns 20\nshine 7", "m.mtl:5: shine 7: no statement of MTL"),
+        ("Tr 0.25", "d 1.5", "m.mtl:8: d 1.5: not from 0 to 1"),
+        ("illum 3", "illum x", "m.mtl:5: illum x: no finite number"),
+        ("newmtl red\n", "Kd 1 1 1\nnewmtl red\n", "m.mtl:1: Kd 1 1 1: newmtl comes first"),
+        ("newmtl glass", "newmtl red", "m.mtl:6: newmtl red: the material is there already"),
+        ("map_Kd picture.png", "map_Kd", "m.mtl:9: map_Kd: no picture is named"),
+        (
+            "map_Kd picture.png",
+            "map_Kd -clamp on a.png",
+            "m.mtl:9: map_Kd -clamp on a.png: an option",
+        ),
+    ];
+    let folder = Folder::new();
+    for (from, to, text) in cases {
+        assert!(MESH.contains(from) || MATERIALS.contains(from), "{from}");
+        let path = folder.put("mesh.obj", &MESH.replacen(from, to, 1));
+        folder.put("m.mtl", &MATERIALS.replacen(from, to, 1));
+        let said = warning(&load(&path).expect(to));
+        let place = folder.0.path().join(text).display().to_string();
+        assert!(said.starts_with(&place), "{to}: {said}");
+    }
+    // A library in another encoding, and one that is a folder.
+    fs::write(folder.0.path().join("m.mtl"), b"n\0e\0w\0").expect("written");
+    let path = folder.put("mesh.obj", MESH);
+    let said = warning(&load(&path).expect("drawn without"));
+    assert!(
+        said.contains("mesh.obj:2: mtllib m.mtl: no readable library") && said.contains("UTF-16")
+    );
+}
+
+#[test]
+fn pictures_that_cannot_be_used_are_warnings() {
+    let folder = Folder::new();
     folder.put("m.mtl", MATERIALS);
     folder.put("picture.png", "not a picture");
     let path = folder.put("mesh.obj", &MESH.replace("usemtl red", "usemtl glass"));
-    assert!(load(&path).expect_err("a broken picture").contains("m.mtl:9: map_Kd: expected a PNG"));
+    let scene = load(&path).expect("drawn in the colour of Kd");
+    let said = warning(&scene);
+    let expected =
+        "m.mtl:9: map_Kd picture.png: the picture cannot be used; drawn in the colour of \
+        Kd (expected PNG, JPEG, BMP, TGA or WebP)";
+    assert!(said.ends_with(expected), "{said}");
+    assert_eq!(scene.materials[0].diffuse, [0.0, 0.0, 1.0]);
+    assert_eq!((scene.textures.len(), scene.materials[0].texture), (0, None));
 }
 
 #[test]

@@ -24,6 +24,11 @@ pub enum Lookup {
 }
 
 impl Texture {
+    /// Whether something shows through anywhere in it.
+    pub fn is_translucent(&self) -> bool {
+        self.texels.iter().any(|texel| texel.0[3] != 255)
+    }
+
     fn texel(&self, column: i64, row: i64) -> Rgba {
         let column = column.rem_euclid(self.width.into());
         let row = row.rem_euclid(self.height.into());

@@ -76,6 +76,8 @@ pub(super) struct Builder<'a> {
     band: [[i64; 2]; 2],
     /// Size of a view in subpixels.
     size: [i64; 2],
+    /// Whether each texture of the scene is translucent.
+    translucent_textures: Vec<bool>,
     opaque: Vec<Polygon>,
     translucent: Vec<Polygon>,
     counts: Counts,
@@ -95,6 +97,7 @@ impl<'a> Builder<'a> {
             camera,
             band: size.map(|n| [-guard, n + guard]),
             size,
+            translucent_textures: scene.textures.iter().map(Texture::is_translucent).collect(),
             opaque: Vec::new(),
             translucent: Vec::new(),
             counts: Counts::default(),
@@ -311,7 +314,9 @@ impl<'a> Builder<'a> {
             let [Rgba(left), Rgba(right)] = v.colour;
             left.iter().zip(right).any(|(l, r)| l.abs_diff(r) > self.options.specular_threshold)
         });
-        let opaque = polygon.vertices.iter().all(|v| v.colour[0].0[3] == 255);
+        let shows_through = |texture: u32| self.translucent_textures[texture as usize];
+        let opaque = polygon.vertices.iter().all(|v| v.colour[0].0[3] == 255)
+            && !polygon.texture.is_some_and(shows_through);
         if opaque { &mut self.opaque } else { &mut self.translucent }.push(polygon);
     }
 

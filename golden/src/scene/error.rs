@@ -1,6 +1,7 @@
 //! What can be wrong with a scene, and where.
 
 use super::locate::Locator;
+use crate::files::{self, ReadError};
 use crate::text::{self, printable, printable_path, TextError};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -11,6 +12,9 @@ pub const COORDINATE_LIMIT: f64 = 1e9;
 pub const SIZE_LIMIT: u32 = 2048;
 /// Most triangles and faces of a scene: id pictures hold one more than an id in 24 bits.
 pub const ID_LIMIT: usize = (1 << 24) - 1;
+/// Largest file of a scene, in bytes: some ten times what the largest mesh takes that is drawn in
+/// reasonable time.
+pub const FILE_LIMIT: u64 = 256 << 20;
 
 /// A wrong value in an input file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -155,14 +159,10 @@ pub fn check_size(width: u32, height: u32, limit: u32) -> Result<(), SceneError>
     Ok(())
 }
 
-/// The bytes of a file.
+/// The bytes of a file of at most [`FILE_LIMIT`] bytes.
 pub fn read(file: &Path) -> Result<Vec<u8>, SceneError> {
-    let wrong = |source| SceneError::Read { file: file.to_owned(), source };
-    // What is no file, such as a pipe, may never end.
-    if !std::fs::metadata(file).map_err(wrong)?.is_file() {
-        return Err(wrong(std::io::Error::other("not a regular file")));
-    }
-    std::fs::read(file).map_err(wrong)
+    files::read(file, FILE_LIMIT)
+        .map_err(|ReadError { file, source }| SceneError::Read { file, source })
 }
 
 /// The text of a file in UTF-8.

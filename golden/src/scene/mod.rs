@@ -26,12 +26,12 @@ pub mod light;
 mod locate;
 mod mesh;
 pub mod obj;
-mod obj_check;
 pub mod place;
 mod rig;
 pub mod rig_file;
 mod shading;
 pub mod vector;
+mod warning;
 pub mod wires;
 
 pub use camera::{Camera, Lens, Snapped};
@@ -43,6 +43,7 @@ pub use mesh::{Colours, Mesh, REPEAT_LIMIT};
 pub(crate) use rig::check_length;
 pub use rig::{HalfSpace, Rig};
 pub use rig_file::RigFile;
+pub use warning::{Warning, Warnings};
 
 use crate::projection::Kind;
 use crate::texture::Texture;
@@ -72,6 +73,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// The meshes. Ids count their polygons in this order, triangles before faces in each.
     pub meshes: Vec<Mesh>,
+    /// What of its files was not followed.
+    pub warnings: Warnings,
 }
 
 impl Scene {

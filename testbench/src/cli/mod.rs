@@ -64,6 +64,7 @@ use wheatstone_golden::scene::{self, builtin, Cull, Geometry, Scene, SceneError}
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::printable_path;
 use wheatstone_studies::volume::Volume;
 use wheatstone_studies::StudyError;
 
@@ -172,6 +173,9 @@ struct View {
     /// or two-centres]
     #[arg(long, value_name = "NAME", value_parser = parse_projection)]
     projection: Option<Kind>,
+    /// Refuse a scene of which the files say what is not followed, instead of warning
+    #[arg(long)]
+    strict: bool,
 }
 
 /// Options of the commands that simulate or make vectors.
@@ -360,9 +364,21 @@ impl Common {
 }
 
 impl View {
-    /// A scene from these eyes.
-    fn open(&self, name: &str, size: Option<[u32; 2]>) -> Result<Scene, SceneError> {
-        scene::open_projected(name, size, self.rig.as_deref(), self.projection)
+    /// A scene from these eyes; tells what of its files is not followed.
+    fn open(&self, name: &str, size: Option<[u32; 2]>) -> Result<Scene, Failure> {
+        let scene = scene::open_projected(name, size, self.rig.as_deref(), self.projection)?;
+        for warning in scene.warnings.lines() {
+            tell!("warning: {warning}");
+        }
+        let count = scene.warnings.count();
+        if self.strict && count > 0 {
+            let warnings = if count == 1 { "a warning" } else { "warnings" };
+            let name = printable_path(Path::new(name));
+            return Err(Failure::Input(format!(
+                "{name}: {warnings}, which --strict makes an error; mend the files or leave out --strict"
+            )));
+        }
+        Ok(scene)
     }
 
     /// Refuses eyes where no scene is drawn that they could see.
@@ -382,6 +398,9 @@ impl View {
         }
         words.extend(self.rig.iter().flat_map(|rig| option("--rig", rig.display())));
         words.extend(self.projection.iter().flat_map(|kind| option("--projection", kind.name())));
+        if self.strict {
+            words.push("--strict".into());
+        }
         words
     }
 }

@@ -1,0 +1,181 @@
+//! Meshes of the faces of an OBJ file: cut into triangles, with normals at all corners.
+
+use super::super::mesh::{face_normal, Colours, Mesh, REPEAT_LIMIT};
+use super::super::vector::Vec3;
+use super::super::warning::Warnings;
+use super::material::{Look, Pattern};
+use super::parse::{Element, Parsed, NONE};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Cosine of the largest angle at which triangles are shaded as one smooth surface.
+const CREASE: f64 = 0.5;
+/// Colour of vertices without one where others have one.
+const WHITE: [u8; 3] = [255; 3];
+
+/// Triangles of a face, of the indices of its corners, counter-clockwise as these are; at least
+/// one, so that every face has its id.
+fn cut(corners: &[Vec3]) -> Vec<[u32; 3]> {
+    (2..corners.len() as u32).map(|k| [0, k - 1, k]).collect()
+}
+
+/// A triangle of a face.
+struct Piece {
+    /// Index of the face.
+    face: usize,
+    /// Indices of its corners among those of the file.
+    corners: [usize; 3],
+    /// Indices of its normals.
+    normals: [u32; 3],
+}
+
+/// What the faces of a mesh have in common.
+#[derive(Clone, Copy, PartialEq)]
+struct Layout {
+    material: u32,
+    coloured: bool,
+    pattern: Option<Pattern>,
+}
+
+/// The faces as meshes in the order of the file, which is that of ids. `looks` are those of the
+/// materials that the file names, then that of faces without.
+pub fn meshes(file: &Path, parsed: &Parsed, looks: &[Look], warnings: &mut Warnings) -> Vec<Mesh> {
+    let (pieces, normals) = pieces(parsed);
+    let mut meshes: Vec<Mesh> = Vec::new();
+    let mut builder: Option<Builder> = None;
+    for of_face in pieces.chunk_by(|a, b| a.face == b.face) {
+        let face = of_face[0].face;
+        let element = &parsed.faces[face];
+        let look = &looks[(element.material as usize).min(looks.len() - 1)];
+        let mut layout = layout(parsed, element, look);
+        if layout.pattern.is_some_and(|pattern| !repeats_are_few(parsed, element, pattern)) {
+            let problem = "more than 1024 repeats of a texture; drawn without texture";
+            warnings.add(file, element.line, "f", problem, "");
+            layout.pattern = None;
+        }
+        if builder.as_ref().is_none_or(|builder| builder.layout != layout) {
+            meshes.extend(builder.take().map(|builder| builder.mesh));
+            builder = Some(Builder::new(layout, face));
+        }
+        if let Some(builder) = &mut builder {
+            of_face.iter().for_each(|piece| builder.add(parsed, &normals, piece));
+        }
+    }
+    meshes.extend(builder.map(|builder| builder.mesh));
+    meshes
+}
+
+/// Triangles of all faces, and the normals of their corners: those of the file; where it has none,
+/// smooth ones; where one is no direction, the face's own.
+fn pieces(parsed: &Parsed) -> (Vec<Piece>, Vec<Vec3>) {
+    let mut normals: Vec<Vec3> = parsed.normals.iter().map(|n| n.unwrap_or_default()).collect();
+    let mut pieces = Vec::new();
+    // Pieces without normals, and their vertices as a mesh.
+    let mut bare = Vec::new();
+    let mut smooth = Mesh::default();
+    for (face, element) in parsed.faces.iter().enumerate() {
+        let corners = parsed.corners(element);
+        let places: Vec<Vec3> =
+            corners.iter().map(|c| parsed.positions[c.vertex as usize]).collect();
+        let mut own = None;
+        let mut normal = |index: u32| match parsed.normals.get(index as usize) {
+            Some(None) => *own.get_or_insert_with(|| {
+                normals.push(face_normal(&places));
+                normals.len() as u32 - 1
+            }),
+            _ => index,
+        };
+        let of_corners: Vec<u32> = corners.iter().map(|c| normal(c.attributes[1])).collect();
+        for triangle in cut(&places) {
+            let triangle = triangle.map(|k| k as usize);
+            if corners[0].attributes[1] == NONE {
+                bare.push(pieces.len());
+                smooth.triangles.push(triangle.map(|k| corners[k].vertex));
+            }
+            pieces.push(Piece {
+                face,
+                corners: triangle.map(|k| element.first + k),
+                normals: triangle.map(|k| of_corners[k]),
+            });
+        }
+    }
+    if !bare.is_empty() {
+        smooth.positions = parsed.positions.clone();
+        smooth.crease_normals(CREASE);
+        for (&piece, triangle) in bare.iter().zip(&smooth.triangles) {
+            pieces[piece].normals = triangle.map(|n| n + normals.len() as u32);
+        }
+        normals.append(&mut smooth.normals);
+    }
+    (pieces, normals)
+}
+
+fn layout(parsed: &Parsed, face: &Element, look: &Look) -> Layout {
+    let corners = parsed.corners(face);
+    let coloured = |vertex: u32| parsed.colours.get(vertex as usize).is_some_and(Option::is_some);
+    let textured = corners.iter().all(|c| {
+        let point = parsed.texture.get(c.attributes[0] as usize);
+        point.is_some_and(Option::is_some)
+    });
+    Layout {
+        material: look.material,
+        // Among coloured faces one that has no material either is white.
+        coloured: !parsed.colours.is_empty()
+            && (look.is_default || corners.iter().any(|c| coloured(c.vertex))),
+        pattern: look.pattern.filter(|_| textured),
+    }
+}
+
+/// Whether the texture points of a face are such as can be drawn.
+fn repeats_are_few(parsed: &Parsed, face: &Element, pattern: Pattern) -> bool {
+    let points = parsed.corners(face).iter().map(|c| parsed.texture[c.attributes[0] as usize]);
+    points.flatten().flat_map(|point| pattern.at(point)).all(|n| n.abs() <= REPEAT_LIMIT)
+}
+
+/// A mesh that is made.
+struct Builder {
+    layout: Layout,
+    /// Index of its first face.
+    first: usize,
+    mesh: Mesh,
+    /// Its vertices by their vertex, texture point and normal.
+    known: HashMap<[u32; 3], u32>,
+}
+
+impl Builder {
+    fn new(layout: Layout, first: usize) -> Builder {
+        let mut mesh = Mesh { material: layout.material, ..Mesh::default() };
+        if layout.coloured {
+            mesh.colours = Colours::Vertex(Vec::new());
+        }
+        Builder { layout, first, mesh, known: HashMap::new() }
+    }
+
+    fn add(&mut self, parsed: &Parsed, normals: &[Vec3], piece: &Piece) {
+        let triangle = [0, 1, 2].map(|k| {
+            let corner = parsed.corners[piece.corners[k]];
+            let texture = self.layout.pattern.map_or(NONE, |_| corner.attributes[0]);
+            let next = self.mesh.positions.len() as u32;
+            let key = [corner.vertex, texture, piece.normals[k]];
+            let vertex = *self.known.entry(key).or_insert(next);
+            if vertex == next {
+                self.vertex(parsed, corner.vertex as usize, texture, normals[key[2] as usize]);
+            }
+            vertex
+        });
+        self.mesh.triangles.push(triangle);
+        self.mesh.triangle_ids.push((piece.face - self.first) as u32);
+    }
+
+    fn vertex(&mut self, parsed: &Parsed, vertex: usize, texture: u32, normal: Vec3) {
+        self.mesh.positions.push(parsed.positions[vertex]);
+        self.mesh.normals.push(normal);
+        if let Colours::Vertex(colours) = &mut self.mesh.colours {
+            colours.push(parsed.colours[vertex].unwrap_or(WHITE));
+        }
+        let point = parsed.texture.get(texture as usize).copied().flatten();
+        if let Some((pattern, point)) = self.layout.pattern.zip(point) {
+            self.mesh.texture_coordinates.push(pattern.at(point));
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! OBJ meshes with their MTL materials.
+//!
+//! The page `docs/scenes.md` lists the statements that are read, and what becomes of them.
+//!
+//! - OBJ is right-handed, z towards the viewer. Its z is turned round, which leaves everything
+//!   where it is: front faces stay counter-clockwise as seen.
+//! - Ids count the faces of the file; all triangles of a face have its id.
+//! - Corners without normals get the mean of the triangles round them that meet at 60 degrees or
+//!   less.
+//! - Names of materials and indices are resolved when the whole file is read. What cannot be
+//!   followed, such as a library, a material or a picture that is not there, is a warning of the
+//!   scene; a wrong vertex is an error.
+//! - The mesh is placed as [`super::rig_file`] says: by default its bounding box is centred on
+//!   the screen, its longest side 80 % of the screen's smaller one, lit by [`Lighting::default`].
+
+mod convert;
+mod find;
+mod material;
+mod parse;
+mod picture;
+mod statement;
+
+pub use picture::{TEXELS_LIMIT, TEXTURE_LIMIT};
+
+use super::error::{no_text, read, SceneError};
+use super::place::{place, Placement};
+use super::warning::Warnings;
+use super::{Lighting, Rig, Scene, DEFAULT_SIZE};
+use crate::text::decode_with_latin1;
+use material::Library;
+use picture::Pictures;
+use std::path::Path;
+
+/// What a mesh is put into: the default rig and light, dark grey background.
+pub fn empty_scene() -> Scene {
+    let [width, height] = DEFAULT_SIZE;
+    Scene {
+        width,
+        height,
+        rig: Rig::default(),
+        background: [40, 44, 52],
+        lighting: Some(Lighting::default()),
+        ..Scene::default()
+    }
+}
+
+/// Loads a mesh into a scene that has none yet.
+///
+/// # Errors
+/// If the file cannot be read, has no faces, or a vertex, an index of one or another number in it
+/// is wrong. Less than that is a warning of the scene.
+pub fn load(file: &Path, mut scene: Scene, placement: &Placement) -> Result<Scene, SceneError> {
+    let mut warnings = Warnings::default();
+    let text = decode_with_latin1(&read(file)?).map_err(|error| no_text(file, error))?;
+    let parsed = parse::parse(file, &text, &mut warnings)?;
+    drop(text);
+    let mut library = Library::read(file, &parsed.libraries, &mut warnings);
+    let mut pictures = Pictures::default();
+    let (materials, used) = (&mut scene.materials, parsed.used());
+    let looks = library.looks(file, &used, materials, &mut pictures, &mut warnings);
+    scene.meshes = convert::meshes(file, &parsed, &looks, &mut warnings);
+    scene.textures = pictures.textures;
+    scene.warnings = warnings;
+    place(&mut scene, placement);
+    Ok(scene)
+}

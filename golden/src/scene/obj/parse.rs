@@ -1,0 +1,343 @@
+//! Reads the statements of an OBJ file.
+
+use super::super::error::{InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT};
+use super::super::vector::{unit, Vec3};
+use super::super::warning::Warnings;
+use super::statement::{each, Statement};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// Statements that are known to change nothing that is drawn here.
+const SILENT: [&str; 23] = [
+    "g",
+    "o",
+    "s",
+    "mg",
+    "vp",
+    "deg",
+    "bmat",
+    "step",
+    "cstype",
+    "parm",
+    "trim",
+    "hole",
+    "scrv",
+    "sp",
+    "end",
+    "con",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+];
+/// Statements that draw what is not drawn here, or bring it.
+const NOT_DRAWN: [&str; 12] =
+    ["p", "curv", "curv2", "surf", "stech", "call", "csh", "usemap", "maplib", "bzp", "bsp", "cdc"];
+
+/// No material, texture point or normal.
+pub const NONE: u32 = u32::MAX;
+/// The index of what no file has.
+const AWAY: u32 = u32::MAX - 1;
+
+/// A corner of a face or a point of a line: indices of [`Parsed`], from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Corner {
+    /// Vertex.
+    pub vertex: u32,
+    /// Texture point and normal, or [`NONE`].
+    pub attributes: [u32; 2],
+}
+
+/// A face or a line: some corners in a row.
+#[derive(Clone, Copy, Debug)]
+pub struct Element {
+    /// Line of the file, from 1.
+    pub line: usize,
+    /// Its first corner.
+    pub first: usize,
+    /// Corners, at least 3 of a face and 2 of a line.
+    pub count: usize,
+    /// Index of its material's name, or [`NONE`].
+    pub material: u32,
+}
+
+/// A name and the line where it comes first.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// Line of the file, from 1.
+    pub line: usize,
+    /// The name as it stands there.
+    pub text: String,
+}
+
+/// An OBJ file.
+#[derive(Debug, Default)]
+pub struct Parsed {
+    /// Vertices, left-handed: z is turned round.
+    pub positions: Vec<Vec3>,
+    /// Colours of the vertices; empty if none has one.
+    pub colours: Vec<Option<[u8; 3]>>,
+    /// Texture points; v goes upward. None where the file has no finite ones.
+    pub texture: Vec<Option<[f64; 2]>>,
+    /// Unit normals, left-handed. None where the file has no direction.
+    pub normals: Vec<Option<Vec3>>,
+    /// Corners of faces and lines.
+    pub corners: Vec<Corner>,
+    /// Faces in the order of the file.
+    pub faces: Vec<Element>,
+    /// Lines in the order of the file.
+    pub lines: Vec<Element>,
+    /// Libraries, each once.
+    pub libraries: Vec<Name>,
+    /// Materials that are chosen, each once.
+    pub materials: Vec<Name>,
+}
+
+impl Parsed {
+    /// The names of the materials, in place of those that no face has none.
+    pub fn used(&self) -> Vec<Option<&Name>> {
+        let mut used = vec![None; self.materials.len()];
+        for element in self.faces.iter().filter(|element| element.material != NONE) {
+            let index = element.material as usize;
+            used[index] = Some(&self.materials[index]);
+        }
+        used
+    }
+
+    /// The corners of a face or a line.
+    pub fn corners(&self, element: &Element) -> &[Corner] {
+        &self.corners[element.first..element.first + element.count]
+    }
+}
+
+/// Reads an OBJ file's text.
+pub fn parse(file: &Path, text: &str, warnings: &mut Warnings) -> Result<Parsed, SceneError> {
+    let (parsed, known) = Default::default();
+    let mut reader = Reader { file, warnings, parsed, material: NONE, known };
+    each(file, text, |statement| reader.statement(statement))?;
+    reader.finish()
+}
+
+/// Said of indices that the file has not.
+const NOT_THERE: [&str; 2] = [
+    "no such texture point in the file; drawn without texture",
+    "no such normal in the file; drawn without normals",
+];
+/// Said of faces of which some corners have what the others lack.
+const MIXED: [&str; 2] = [
+    "texture points at some corners alone; drawn without texture",
+    "normals at some corners alone; drawn without them",
+];
+
+/// Takes the texture points (0) or normals (1) from all corners of a face if some have none, or
+/// one beyond the `count` of the file; returns what to say of it.
+fn settle(corners: &mut [Corner], kind: usize, count: usize) -> Option<&'static str> {
+    let indices = || corners.iter().map(|corner| corner.attributes[kind]);
+    let away = |index: u32| index != NONE && index as usize >= count;
+    let problem = if indices().any(away) { NOT_THERE[kind] } else { MIXED[kind] };
+    let lacking = indices().filter(|&index| index == NONE || away(index)).count();
+    if lacking > 0 {
+        corners.iter_mut().for_each(|corner| corner.attributes[kind] = NONE);
+    }
+    (lacking > 0 && (lacking < corners.len() || problem == NOT_THERE[kind])).then_some(problem)
+}
+
+/// Index of the name in a statement among those known so far.
+fn intern(known: &mut HashMap<String, u32>, names: &mut Vec<Name>, statement: &Statement) -> u32 {
+    if let Some(&index) = known.get(statement.rest) {
+        return index;
+    }
+    let index = names.len() as u32;
+    known.insert(statement.rest.into(), index);
+    names.push(Name { line: statement.line, text: statement.rest.into() });
+    index
+}
+
+struct Reader<'a> {
+    file: &'a Path,
+    warnings: &'a mut Warnings,
+    parsed: Parsed,
+    /// Index of the material that is chosen, or [`NONE`].
+    material: u32,
+    /// Indices of names of materials and libraries.
+    known: [HashMap<String, u32>; 2],
+}
+
+impl Reader<'_> {
+    fn statement(&mut self, statement: &Statement) -> Result<(), SceneError> {
+        match statement.keyword.as_ref() {
+            "v" => self.vertex(statement)?,
+            "vt" => self.texture_point(statement)?,
+            "vn" => self.normal(statement)?,
+            // `fo` is what faces were called at first.
+            "f" | "fo" => self.face(statement)?,
+            "l" => self.line(statement)?,
+            "usemtl" => {
+                self.material = intern(&mut self.known[0], &mut self.parsed.materials, statement);
+            }
+            "mtllib" if statement.rest.is_empty() => {
+                statement.warn(self.warnings, "no library is named");
+            }
+            "mtllib" => {
+                intern(&mut self.known[1], &mut self.parsed.libraries, statement);
+            }
+            word if SILENT.contains(&word) => {}
+            word if NOT_DRAWN.contains(&word) => {
+                statement.warn(self.warnings, "not drawn: points, curves, surfaces, other files");
+            }
+            _ => statement.warn(self.warnings, "no statement of OBJ files; left out"),
+        }
+        Ok(())
+    }
+
+    fn vertex(&mut self, statement: &Statement) -> Result<(), InputError> {
+        let numbers = statement.numbers(3)?;
+        let legal = |n: &f64| n.abs() <= COORDINATE_LIMIT;
+        if let Some(at) = numbers[..3].iter().position(|n| !legal(n)) {
+            let expected = format!("finite coordinates of at most {COORDINATE_LIMIT:e}");
+            return Err(statement.wrong(expected, statement.words().nth(at).unwrap_or_default()));
+        }
+        let mut position = [numbers[0], numbers[1], -numbers[2]];
+        match numbers.len() {
+            3 => {}
+            4 => {
+                let divided = position.map(|n| n / numbers[3]);
+                if divided.iter().all(legal) {
+                    position = divided;
+                } else {
+                    statement.warn(self.warnings, "w makes the place infinite; w is ignored");
+                }
+            }
+            // A seventh is opacity, which materials have alone.
+            6 | 7 if numbers[3..6].iter().all(|n| n.is_finite()) => {
+                let byte = |k: usize| (numbers[k].clamp(0.0, 1.0) * 255.0).round_ties_even() as u8;
+                self.parsed.colours.resize(self.parsed.positions.len(), None);
+                self.parsed.colours.push(Some([3, 4, 5].map(byte)));
+            }
+            6 | 7 => statement.warn(self.warnings, "the colour is not finite; left out"),
+            _ => statement.warn(self.warnings, "neither 3, 4, 6 nor 7 numbers; the first 3 count"),
+        }
+        self.parsed.positions.push(position);
+        Ok(())
+    }
+
+    fn texture_point(&mut self, statement: &Statement) -> Result<(), InputError> {
+        let numbers = statement.numbers(1)?;
+        let point = [numbers[0], numbers.get(1).copied().unwrap_or(0.0)];
+        let finite = point.iter().all(|n| n.is_finite());
+        if !finite {
+            statement.warn(self.warnings, "not finite; faces with it are drawn without texture");
+        }
+        self.parsed.texture.push(finite.then_some(point));
+        Ok(())
+    }
+
+    fn normal(&mut self, statement: &Statement) -> Result<(), InputError> {
+        let numbers = statement.numbers(3)?;
+        let normal = [numbers[0], numbers[1], -numbers[2]];
+        let finite = normal.iter().all(|n| n.is_finite());
+        if !finite {
+            statement.warn(self.warnings, "not finite; the face's own normal is used");
+        }
+        self.parsed.normals.push(Some(unit(normal)).filter(|_| finite && normal != [0.0; 3]));
+        Ok(())
+    }
+
+    fn face(&mut self, statement: &Statement) -> Result<(), InputError> {
+        let element = self.element(statement)?;
+        if element.count < 3 {
+            self.parsed.corners.truncate(element.first);
+            statement.warn(self.warnings, "fewer than three corners; not drawn");
+            return Ok(());
+        }
+        if self.parsed.faces.len() == ID_LIMIT {
+            return Err(statement.wrong(format!("at most {ID_LIMIT} faces"), "more"));
+        }
+        self.parsed.faces.push(element);
+        Ok(())
+    }
+
+    fn line(&mut self, statement: &Statement) -> Result<(), InputError> {
+        let element = self.element(statement)?;
+        if element.count < 2 {
+            self.parsed.corners.truncate(element.first);
+            statement.warn(self.warnings, "fewer than two points; not drawn");
+            return Ok(());
+        }
+        self.parsed.lines.push(element);
+        Ok(())
+    }
+
+    /// Reads corners; whether the file has them shows at its end.
+    fn element(&mut self, statement: &Statement) -> Result<Element, InputError> {
+        let first = self.parsed.corners.len();
+        for word in statement.words() {
+            let mut parts = word.split('/');
+            let mut index = |kind| match parts.next() {
+                None | Some("") => Ok(NONE),
+                Some(part) => self.index(statement, part, kind),
+            };
+            let [vertex, attributes @ ..] = [index(0)?, index(1)?, index(2)?];
+            if parts.next().is_some() {
+                return Err(statement.wrong("vertex/texture/normal", word));
+            }
+            if vertex == NONE {
+                return Err(statement.wrong("the index of a vertex", word));
+            }
+            self.parsed.corners.push(Corner { vertex, attributes });
+        }
+        let count = self.parsed.corners.len() - first;
+        Ok(Element { line: statement.line, first, count, material: self.material })
+    }
+
+    /// Index, from 0, of a vertex (0), texture point (1) or normal (2); it may be beyond the last.
+    fn index(&self, statement: &Statement, part: &str, kind: usize) -> Result<u32, InputError> {
+        let parsed = &self.parsed;
+        let count = [parsed.positions.len(), parsed.texture.len(), parsed.normals.len()][kind];
+        let Ok(n) = part.parse::<i64>() else {
+            return Err(statement.wrong("whole numbers as indices", part));
+        };
+        let absolute = if n < 0 { (count as i64).saturating_add(n) } else { n - 1 };
+        match u32::try_from(absolute).ok().filter(|&index| index < AWAY) {
+            Some(index) => Ok(index),
+            None if kind == 0 => {
+                Err(statement.wrong(format!("an index of the {count} vertices so far"), part))
+            }
+            None => Ok(AWAY),
+        }
+    }
+
+    /// Checks what corners refer to.
+    fn finish(mut self) -> Result<Parsed, SceneError> {
+        let parsed = &mut self.parsed;
+        if !parsed.colours.is_empty() {
+            parsed.colours.resize(parsed.positions.len(), None);
+        }
+        let count = parsed.positions.len();
+        let counts = [parsed.texture.len(), parsed.normals.len()];
+        for (field, elements) in [("f", &parsed.faces), ("l", &parsed.lines)] {
+            for element in elements {
+                let corners = &mut parsed.corners[element.first..element.first + element.count];
+                if let Some(far) = corners.iter().find(|c| c.vertex as usize >= count) {
+                    let expected = format!("an index of the {count} vertices");
+                    let found = (u64::from(far.vertex) + 1).to_string();
+                    return Err(
+                        InputError::new(self.file, element.line, field, expected, found).into()
+                    );
+                }
+                for kind in [0, 1] {
+                    if let Some(problem) = settle(corners, kind, counts[kind]) {
+                        self.warnings.add(self.file, element.line, field, problem, "");
+                    }
+                }
+            }
+        }
+        if self.parsed.faces.is_empty() && self.parsed.lines.is_empty() {
+            return Err(InputError::new(self.file, None, "f", "at least one face", "none").into());
+        }
+        Ok(self.parsed)
+    }
+}

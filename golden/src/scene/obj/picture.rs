@@ -1,0 +1,142 @@
+//! Pictures as textures: PNG, JPEG, BMP, TGA and WebP, told apart by their content.
+
+use super::super::error::read;
+use crate::formats::Rgba;
+use crate::texture::Texture;
+use image::{ImageFormat, ImageReader, Limits, RgbImage, RgbaImage};
+use std::collections::HashMap;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
+use zune_jpeg::JpegDecoder;
+
+/// Largest width and height of a texture.
+pub const TEXTURE_LIMIT: u32 = 4096;
+/// Most texels of all textures of a scene: 64 of 1024 x 1024.
+pub const TEXELS_LIMIT: usize = 1 << 26;
+/// The formats that are read.
+const FORMATS: &str = "PNG, JPEG, BMP, TGA or WebP";
+
+/// A picture that has been read.
+struct Picture {
+    texels: RgbaImage,
+    /// What is damaged, if it could be read nevertheless.
+    damage: Option<String>,
+}
+
+/// The textures of a scene, each picture once.
+#[derive(Default)]
+pub struct Pictures {
+    /// The textures.
+    pub textures: Vec<Texture>,
+    texels: usize,
+    /// Index and damage, or why there is none.
+    known: HashMap<PathBuf, Result<(u32, Option<String>), String>>,
+}
+
+impl Pictures {
+    /// Index of the texture of a file, and what is damaged of it; or why there is none.
+    pub fn index(&mut self, file: &Path) -> Result<(u32, Option<String>), String> {
+        if let Some(known) = self.known.get(file) {
+            return known.clone();
+        }
+        let loaded = self.load(file);
+        self.known.insert(file.into(), loaded.clone());
+        loaded
+    }
+
+    fn load(&mut self, file: &Path) -> Result<(u32, Option<String>), String> {
+        let bytes = read(file).map_err(|error| error.to_string())?;
+        let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let is_tga = extension.as_deref() == Some("tga");
+        let Picture { texels, damage } = decode(&bytes, is_tga)?;
+        self.texels += texels.len() / 4;
+        if self.texels > TEXELS_LIMIT {
+            return Err(format!("more than {TEXELS_LIMIT} texels in all textures"));
+        }
+        self.textures.push(Texture {
+            width: texels.width(),
+            height: texels.height(),
+            texels: texels.pixels().map(|p| Rgba(p.0)).collect(),
+        });
+        Ok((self.textures.len() as u32 - 1, damage))
+    }
+}
+
+/// Decodes a picture; TGA has no mark of its own in front.
+fn decode(bytes: &[u8], is_tga: bool) -> Result<Picture, String> {
+    let guessed = image::guess_format(bytes).ok().or(is_tga.then_some(ImageFormat::Tga));
+    let format = match guessed {
+        Some(ImageFormat::Jpeg) => return decode_jpeg(bytes),
+        Some(format) if format.reading_enabled() => format,
+        _ => return Err(format!("expected {FORMATS}")),
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(TEXTURE_LIMIT);
+    limits.max_image_height = Some(TEXTURE_LIMIT);
+    reader.limits(limits);
+    let picture = reader.decode().map_err(|error| match error {
+        image::ImageError::Limits(_) => too_large(),
+        error => error.to_string(),
+    })?;
+    Ok(Picture { texels: picture.into_rgba8(), damage: None })
+}
+
+fn too_large() -> String {
+    format!("expected at most {TEXTURE_LIMIT} pixels a side")
+}
+
+/// Decodes a JPEG picture strictly; one that fails so is damaged, but most of it may be there.
+fn decode_jpeg(bytes: &[u8]) -> Result<Picture, String> {
+    match jpeg_pixels(bytes, true) {
+        Ok(texels) => Ok(Picture { texels, damage: jpeg_end(bytes).err().map(String::from) }),
+        Err(strict) => match jpeg_pixels(bytes, false) {
+            Ok(texels) => Ok(Picture { texels, damage: Some(strict) }),
+            Err(error) => Err(error),
+        },
+    }
+}
+
+fn jpeg_pixels(bytes: &[u8], strict: bool) -> Result<RgbaImage, String> {
+    let options = DecoderOptions::default()
+        .set_strict_mode(strict)
+        .set_max_width(usize::from(u16::MAX))
+        .set_max_height(usize::from(u16::MAX))
+        .jpeg_set_out_colorspace(ColorSpace::RGB);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    decoder.decode_headers().map_err(|error| error.to_string())?;
+    let (width, height) = decoder.dimensions().ok_or("no size")?;
+    let most = TEXTURE_LIMIT as usize;
+    if width > most || height > most {
+        return Err(too_large());
+    }
+    let pixels = decoder.decode().map_err(|error| error.to_string())?;
+    let picture = RgbImage::from_raw(width as u32, height as u32, pixels);
+    let picture = picture.ok_or("not as many pixels as its size says")?;
+    Ok(image::DynamicImage::ImageRgb8(picture).into_rgba8())
+}
+
+/// Walks over the segments of a JPEG file to its end, which decoders do not miss.
+fn jpeg_end(bytes: &[u8]) -> Result<(), &'static str> {
+    const ENDED: &str = "it ends early";
+    // Behind the mark of the start.
+    let mut at = 2;
+    loop {
+        // Segments begin with 0xff and may be filled up with more of them.
+        let from =
+            at + bytes.get(at..).ok_or(ENDED)?.iter().position(|&b| b == 0xff).ok_or(ENDED)?;
+        at = from + bytes[from..].iter().position(|&b| b != 0xff).ok_or(ENDED)?;
+        match bytes[at] {
+            0xd9 => return Ok(()),
+            // Stuffed and restart marks stand in the data of a scan, which has no length.
+            0 | 1 | 0xd0..=0xd8 => at += 1,
+            _ => {
+                let length = bytes.get(at + 1..at + 3).ok_or(ENDED)?;
+                at += 1 + usize::from(u16::from_be_bytes([length[0], length[1]])).max(2);
+            }
+        }
+    }
+}
