@@ -1,8 +1,8 @@
 //! Flows of open tools on the Verilog of a module: in a temporary folder, with results kept by content.
 
+use crate::kept::{self, entry, short, Kept};
 use crate::sources::Sources;
 use crate::tools::{self, Found, Tool, ToolError};
-use crate::verilate::{entry, short};
 use serde::{de::DeserializeOwned, Serialize};
 use std::fs;
 use std::io;
@@ -89,15 +89,26 @@ pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         entry(&mut hash, name.as_bytes(), content);
     }
     inputs.iter().for_each(|input| entry(&mut hash, b"input", input));
-    let file = cache.join(format!("{module}-{}.json", short(&hash)));
-    let known = fs::read(&file).ok().and_then(|text| serde_json::from_slice(&text).ok());
+    let file = cache.join(format!("{module}-{}.result", short(&hash)));
+    let key = hash.finalize().to_hex();
+    let known = match kept::text(&file, &key) {
+        Kept::Sound(text) => serde_json::from_str(&text).ok(),
+        Kept::Absent => None,
+        Kept::Damaged => {
+            wheatstone_process::tell(&format!(
+                "{} is not as it was kept: {module} is measured anew",
+                file.display()
+            ));
+            None
+        }
+    };
     if let Some(found) = known {
         return Ok(found);
     }
     let found = find(&Folder::of(cache, module, sources)?)?;
-    if keep(&found) {
-        let text = serde_json::to_vec(&found).unwrap_or_default();
-        files::write(&file, &text)?;
+    // What is no JSON could not be read again.
+    if let (true, Ok(text)) = (keep(&found), serde_json::to_string(&found)) {
+        kept::write_text(&file, &key, text)?;
     }
     Ok(found)
 }
@@ -171,5 +182,32 @@ impl Folder {
         let first = all.iter().position(|line| line.contains("ERROR")).unwrap_or(0);
         let lines = all[first..].iter().take(8).copied().collect::<Vec<_>>().join("\n");
         FlowError::Failed { tool: tool.program, module: self.module.clone(), lines }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kept_result_that_was_changed_is_measured_anew() {
+        let cache = tempfile::tempdir().unwrap();
+        let sources = Sources::from([("sam_x.v".into(), b"module".to_vec())]);
+        let measured = std::cell::Cell::new(0);
+        let measure = |keep: bool| {
+            let find = |_: &Folder| {
+                measured.set(measured.get() + 1);
+                Ok(120_u32)
+            };
+            cached(cache.path(), "sam_x", &sources, &[b"yosys"], |_| keep, find).unwrap()
+        };
+        assert_eq!([measure(false), measure(true), measure(true)], [120; 3]);
+        assert_eq!(measured.get(), 2, "what is not to be kept is not");
+        let file = fs::read_dir(cache.path()).unwrap().next().unwrap().unwrap().path();
+        let text = fs::read_to_string(&file).unwrap();
+        assert!(text.ends_with("\n120"), "{text}");
+        fs::write(&file, text.replace("\n120", "\n121")).unwrap();
+        assert_eq!([measure(true), measure(true)], [120; 2]);
+        assert_eq!(measured.get(), 3);
     }
 }

@@ -18,6 +18,7 @@ mod drive;
 mod flow;
 pub mod generated;
 mod job;
+mod kept;
 mod layout;
 pub mod memory;
 mod model;

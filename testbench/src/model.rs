@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 use std::ptr::NonNull;
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
+use wheatstone_golden::files::Scratch;
 use wheatstone_golden::interface::{Direction, Interface};
 
 type Handle = *mut c_void;
@@ -77,6 +78,14 @@ pub enum LoadError {
         /// Why.
         source: libloading::Error,
     },
+    /// There is no room for a copy of it.
+    #[error("cannot copy {}: {source}", .path.display())]
+    Copy {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
     /// The file is not the one that was built.
     #[error("{} is not the model it should be; delete it", .path.display())]
     Stale {
@@ -126,8 +135,10 @@ pub struct Library {
 }
 
 impl Library {
+    /// Loads the shared object with this content, which is that of the file `path`.
     pub(crate) fn load(
         path: &Path,
+        content: &[u8],
         key: &str,
         interface: &Interface,
         probes: &[Probe],
@@ -137,9 +148,11 @@ impl Library {
             return Err(LoadError::TooManyStreams(interface.module.to_owned()));
         }
         let at = |source| LoadError::Object { path: path.to_owned(), source };
+        let private = private(path, content)
+            .map_err(|source| LoadError::Copy { path: path.to_owned(), source })?;
         // SAFETY: the object's initialisers are those of Verilator's runtime and the C++ library.
-        let object = unsafe { Object::new(std::path::absolute(path).unwrap_or(path.to_owned())) }
-            .map_err(at)?;
+        let object = unsafe { Object::new(private.path().join(COPY)) }.map_err(at)?;
+        drop(private);
         // SAFETY: every shim has this function; a foreign object lacks it and is refused.
         let found = unsafe {
             let key = object.get::<unsafe extern "C" fn() -> *const c_char>(b"wheatstone_key\0");
@@ -185,6 +198,19 @@ impl Library {
     pub(crate) fn is(&self, other: &Library) -> bool {
         Arc::ptr_eq(&self.loaded, &other.loaded)
     }
+}
+
+/// Name of the copy of an object that is loaded.
+const COPY: &str = "model.so";
+
+/// A folder with a copy of an object beside its own folder. The loader maps it, and what is no longer there would
+/// be a deadly signal: of a copy without a name nobody can cut anything off. No copy has the name of another
+/// one, as the loader takes two of one name for the same.
+fn private(object: &Path, content: &[u8]) -> std::io::Result<Scratch> {
+    let cache = object.parent().and_then(Path::parent).unwrap_or(Path::new("."));
+    let scratch = Scratch::new(cache).or_else(|_| Scratch::new(&std::env::temp_dir()))?;
+    std::fs::write(scratch.path().join(COPY), content)?;
+    Ok(scratch)
 }
 
 /// What was seen in a cycle; bits are streams.

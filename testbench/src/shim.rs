@@ -11,9 +11,17 @@ use wheatstone_golden::interface::{Direction, Interface};
 /// Prefix of the files and classes that Verilator generates.
 pub(crate) const PREFIX: &str = "V";
 
-/// Included before everything else that is compiled, the runtime too.
-pub(crate) const PRINT_HEADER: &str =
-    "#pragma once\nextern \"C\" int wheatstone_print(const char* format, ...);\n";
+/// Included before everything else that is compiled, the runtime too: what a module prints, also by `$fdisplay`
+/// into the descriptors that are always open, does not appear among the results.
+pub(crate) const PRINT_HEADER: &str = "#pragma once
+#include <cstdio>
+#undef stdout
+#undef stderr
+extern \"C\" int wheatstone_print(const char* format, ...);
+extern \"C\" FILE* wheatstone_nowhere();
+#define stdout wheatstone_nowhere()
+#define stderr wheatstone_nowhere()
+";
 
 /// The whole shim, but for the list of Verilator's files that it includes.
 pub(crate) fn text(interface: &Interface, probes: &[Probe], layout: &Layout) -> String {

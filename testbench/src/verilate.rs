@@ -7,6 +7,7 @@
 //! a killed one leaves half a model, nor do the compilers that outlive a killed one.
 
 use crate::cover::Collector;
+use crate::kept::{self, entry, short, Kept};
 use crate::layout::{Layout, Probe};
 use crate::model::{Library, LoadError};
 use crate::ports::{self, PortError};
@@ -21,7 +22,7 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use thiserror::Error;
-use wheatstone_golden::files::{publish, Scratch};
+use wheatstone_golden::files::{publish, Lock, LockError, Scratch};
 use wheatstone_golden::interface::Interface;
 use wheatstone_process::{Process, ProcessError};
 
@@ -72,6 +73,9 @@ const OPTIMISED: &str = "-O3";
 const UNOPTIMISED: &str = "-O0";
 const COVERING: &str = "-O1";
 
+/// The file with a model.
+const OBJECT: &str = "model.so";
+
 /// Sources of Verilator's runtime that every model is linked with.
 const RUNTIME: [&str; 4] = ["verilated", "verilated_threads", "verilated_fst_c", "verilated_cov"];
 
@@ -91,6 +95,8 @@ pub struct Spec<'a> {
 pub enum Progress<'a> {
     /// Verilator's runtime is compiled: once a machine, some seconds.
     Runtime,
+    /// What is in the cache is not what was built; it is built anew.
+    Damaged(&'a str),
     /// A model is being built.
     Building(&'a str),
     /// A model is ready.
@@ -101,6 +107,7 @@ impl fmt::Display for Progress<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Progress::Runtime => write!(f, "building Verilator's runtime ..."),
+            Progress::Damaged(what) => write!(f, "{what} in the cache is damaged"),
             Progress::Building(module) => write!(f, "building {module} ..."),
             Progress::Built(module, time) => {
                 write!(f, "built {module} in {:.1} s", time.as_secs_f64())
@@ -149,6 +156,9 @@ pub enum BuildError {
         /// The file with all of it.
         log: PathBuf,
     },
+    /// Another process builds the same and does not come to an end.
+    #[error(transparent)]
+    Lock(LockError),
     /// The finished model could not be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -211,22 +221,60 @@ impl Builder {
         };
         let key = job.key();
         let folder = self.cache.join(format!("{module}-{key}"));
-        let object = folder.join("model.so");
-        if !object.is_file() {
-            let _lock = Lock::take(&self.cache, &format!("{module}-{key}.lock"))?;
-            if !object.is_file() {
-                (self.progress)(Progress::Building(module));
-                let start = Instant::now();
-                let temporary = self.scratch()?;
-                job.build(&key, temporary.path())?;
-                persist(temporary, &folder)?;
-                (self.progress)(Progress::Built(module, start.elapsed()));
+        let known = || match kept::folder(&folder, &key) {
+            Kept::Sound(mut files) => files.remove(OBJECT),
+            _ => None,
+        };
+        let load = |content: Vec<u8>| {
+            let object = folder.join(OBJECT);
+            Library::load(&object, &content, &key, spec.interface, spec.probes, layout.clone())
+        };
+        let library = match known() {
+            Some(content) => load(content)?,
+            None => {
+                let _lock = self.lock(&format!("{module}-{key}.lock"))?;
+                match known() {
+                    Some(content) => load(content)?,
+                    None => self.build_now(&job, &key, &folder, load)?,
+                }
             }
-        }
-        let library = Library::load(&object, &key, spec.interface, spec.probes, layout)?;
+        };
         Ok(match &self.coverage {
             Some(collector) => library.covering(collector.clone()),
             None => library,
+        })
+    }
+
+    /// Builds a model and puts it into the cache if it can be loaded.
+    fn build_now(
+        &self,
+        job: &Job<'_>,
+        key: &str,
+        folder: &Path,
+        load: impl FnOnce(Vec<u8>) -> Result<Library, LoadError>,
+    ) -> Result<Library, BuildError> {
+        let module = job.spec.interface.module;
+        if folder.exists() {
+            (self.progress)(Progress::Damaged(module));
+        }
+        (self.progress)(Progress::Building(module));
+        let start = Instant::now();
+        let temporary = self.scratch()?;
+        let content = job.build(key, temporary.path())?;
+        let library = load(content)?;
+        persist(temporary, key, folder)?;
+        (self.progress)(Progress::Built(module, start.elapsed()));
+        Ok(library)
+    }
+
+    /// A lock between all that build into this cache.
+    fn lock(&self, name: &str) -> Result<Lock, BuildError> {
+        let (file, limit) = (self.cache.join(name), wheatstone_process::limit());
+        Lock::take(&file, limit, wheatstone_process::tell).map_err(|error| {
+            match error.source.kind() {
+                io::ErrorKind::TimedOut => BuildError::Lock(error),
+                _ => BuildError::Cache { path: error.file, source: error.source },
+            }
         })
     }
 
@@ -240,12 +288,16 @@ impl Builder {
         let key = short(&hash);
         let folder = self.cache.join(format!("runtime-{key}"));
         let objects = RUNTIME.map(|name| folder.join(format!("{name}.o"))).to_vec();
-        if folder.is_dir() {
+        let is_sound = || matches!(kept::folder(&folder, &key), Kept::Sound(_));
+        if is_sound() {
             return Ok(objects);
         }
-        let _lock = Lock::take(&self.cache, &format!("runtime-{key}.lock"))?;
-        if folder.is_dir() {
+        let _lock = self.lock(&format!("runtime-{key}.lock"))?;
+        if is_sound() {
             return Ok(objects);
+        }
+        if folder.exists() {
+            (self.progress)(Progress::Damaged("Verilator's runtime"));
         }
         self.tools.check_zlib()?;
         (self.progress)(Progress::Runtime);
@@ -256,9 +308,12 @@ impl Builder {
             command.arg("-c").arg(self.tools.include.join(format!("{name}.cpp")));
             command.arg("-o").arg(format!("{name}.o"));
             let log = self.cache.join(format!("runtime-{key}.log"));
-            run(command, "g++", "verilator's runtime", &log)?;
+            let made = temporary.path().join(format!("{name}.o"));
+            run(command, "g++", "verilator's runtime", &log, &made, kept::is_whole_object)?;
         }
-        persist(temporary, &folder)?;
+        let header = temporary.path().join("print.h");
+        fs::remove_file(&header).map_err(|source| BuildError::Cache { path: header, source })?;
+        persist(temporary, &key, &folder)?;
         Ok(objects)
     }
 
@@ -336,8 +391,8 @@ impl Job<'_> {
         short(&hash)
     }
 
-    /// Builds `model.so` in a folder of its own, which holds nothing else at the end.
-    fn build(&self, key: &str, temporary: &Path) -> Result<(), BuildError> {
+    /// Builds `model.so` in a folder of its own, which holds nothing else at the end; returns its content.
+    fn build(&self, key: &str, temporary: &Path) -> Result<Vec<u8>, BuildError> {
         let runtime = self.builder.runtime()?;
         let module = self.spec.interface.module;
         let log = self.builder.cache.join(format!("{module}-{key}.log"));
@@ -356,11 +411,9 @@ impl Job<'_> {
             command.arg(format!("-G{name}={value}"));
         }
         command.arg(format!("rtl/{module}.v")).arg("probes.vlt");
-        run(command, "verilator", module, &log)?;
-
         let header = temporary.join("cpp").join(format!("{PREFIX}.h"));
-        let text = fs::read_to_string(&header)
-            .map_err(|source| BuildError::Cache { path: header, source })?;
+        let text = run(command, "verilator", module, &log, &header, |text| !text.is_empty())?;
+        let text = String::from_utf8_lossy(&text);
         ports::check(module, &self.layout.signals[..self.layout.ports], &text)?;
 
         let files = cpp_files(&temporary.join("cpp"))?;
@@ -369,27 +422,17 @@ impl Job<'_> {
         let mut command = self.builder.compiler(temporary);
         command.args(["-shared", "-Wl,-Bsymbolic", "-I", "cpp", "cpp/model.cpp"]);
         command.args(runtime.iter().map(|object| absolute(object)));
-        command.args(["-o", "model.so", "-pthread", "-lz"]);
-        run(command, "g++", module, &log)?;
-        for part in ["cpp", "rtl"] {
+        command.args(["-o", OBJECT, "-pthread", "-lz"]);
+        let object = temporary.join(OBJECT);
+        let content = run(command, "g++", module, &log, &object, kept::is_whole_object)?;
+        for part in ["cpp", "rtl", "probes.vlt", "print.h"] {
             let path = temporary.join(part);
-            fs::remove_dir_all(&path).map_err(|source| BuildError::Cache { path, source })?;
+            let removed =
+                if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+            removed.map_err(|source| BuildError::Cache { path, source })?;
         }
-        Ok(())
+        Ok(content)
     }
-}
-
-/// Hashes two byte strings so that no other pair gives the same input.
-pub(crate) fn entry(hash: &mut blake3::Hasher, name: &[u8], content: &[u8]) {
-    for bytes in [name, content] {
-        hash.update(&(bytes.len() as u64).to_le_bytes());
-        hash.update(bytes);
-    }
-}
-
-/// A hash as part of a file name.
-pub(crate) fn short(hash: &blake3::Hasher) -> String {
-    hash.finalize().to_hex()[..24].to_owned()
 }
 
 fn absolute(path: &Path) -> PathBuf {
@@ -410,18 +453,28 @@ fn cpp_files(folder: &Path) -> Result<Vec<String>, BuildError> {
     Ok(files)
 }
 
-/// Runs a tool; what it says goes to `log`, which stays only if it failed.
+/// Runs a tool and returns the content of the file `made` that comes of it. What the tool says goes to `log`, which
+/// stays only if it failed, or made no such file.
 fn run(
     mut command: Command,
     tool: &'static str,
     module: &str,
     log: &Path,
-) -> Result<(), BuildError> {
+    made: &Path,
+    is_whole: impl Fn(&[u8]) -> bool,
+) -> Result<Vec<u8>, BuildError> {
     let output = Process::new(tool, &mut command).on(module).run()?;
+    let mut text = output.said();
     if output.succeeded() {
-        return Ok(());
+        match fs::read(made) {
+            Ok(content) if is_whole(&content) => return Ok(content),
+            found => {
+                let found = if found.is_ok() { "only a part of" } else { "no" };
+                let name = made.file_name().unwrap_or_default().display();
+                text = format!("error: it ended well, but wrote {found} {name}\n{text}");
+            }
+        }
     }
-    let text = output.said();
     write(log, text.as_bytes())?;
     let all: Vec<&str> = text.lines().collect();
     let first = all.iter().position(|line| line.contains("rror")).unwrap_or(0);
@@ -439,22 +492,8 @@ fn write(path: &Path, content: &[u8]) -> Result<(), BuildError> {
         .map_err(|source| BuildError::Cache { path: path.to_owned(), source })
 }
 
-fn persist(temporary: Scratch, to: &Path) -> Result<(), BuildError> {
+fn persist(temporary: Scratch, key: &str, to: &Path) -> Result<(), BuildError> {
+    kept::seal(temporary.path(), key)
+        .map_err(|source| BuildError::Cache { path: to.to_owned(), source })?;
     publish(temporary, to).map_err(|e| BuildError::Cache { path: e.file, source: e.source })
-}
-
-/// A lock between threads and processes, given back when dropped.
-struct Lock {
-    _file: File,
-}
-
-impl Lock {
-    fn take(folder: &Path, name: &str) -> Result<Lock, BuildError> {
-        let path = folder.join(name);
-        let at = |source| BuildError::Cache { path: path.clone(), source };
-        create_folder(folder)?;
-        let file = File::create(&path).map_err(at)?;
-        file.lock().map_err(at)?;
-        Ok(Lock { _file: file })
-    }
 }

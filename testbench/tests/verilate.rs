@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use std::ffi::OsStr;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Arc;
 use wheatstone_golden::interface::Interface;
@@ -200,4 +200,76 @@ fn a_cache_that_cannot_be_written_is_named() {
     let error = Counting::new(&file).build(&adder(0), &fixtures()).err().unwrap();
     assert!(matches!(error, BuildError::Cache { .. }));
     assert!(error.to_string().starts_with("cannot write "), "{error}");
+}
+
+/// The folders of a cache whose names begin so.
+fn kept(cache: &Path, name: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(cache).unwrap().map(|entry| entry.unwrap().path());
+    let is_it = |path: &PathBuf| path.file_name().unwrap().to_string_lossy().starts_with(name);
+    entries.filter(|path| path.is_dir() && is_it(path)).collect()
+}
+
+#[test]
+fn what_was_changed_in_the_cache_is_built_again() {
+    let cache = fresh_cache();
+    let counting = Counting::new(cache.path());
+    let interface = adder(0);
+    let library = counting.build(&interface, &fixtures()).unwrap();
+    let object = kept(cache.path(), "sam_adder")[0].join("model.so");
+    let runtime = kept(cache.path(), "runtime")[0].join("verilated.o");
+    let sound = [&object, &runtime].map(|file| fs::read(file).unwrap());
+    fs::write(&object, &sound[0][..sound[0].len() / 2]).unwrap();
+    fs::write(&runtime, "").unwrap();
+    assert!(passes(&counting.build(&interface, &fixtures()).unwrap()));
+    assert_eq!(counting.built(), 2);
+    assert_eq!(fs::read(&object).unwrap().len(), sound[0].len());
+    assert_eq!(fs::read(&runtime).unwrap().len(), sound[1].len());
+    // One that is in use is a copy of its own.
+    fs::write(&object, "").unwrap();
+    assert!(passes(&library));
+    assert_eq!(kept(cache.path(), ".wheatstone"), Vec::<PathBuf>::new());
+}
+
+/// A compiler that says that all is well. In place of objects of the runtime and of models it makes what the words of
+/// a shell write to `$out`.
+fn false_compiler(objects: &str, models: &str) -> (tempfile::TempDir, Toolchain) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut tools = Toolchain::find().unwrap();
+    let program = folder.path().join("g++");
+    let script = format!(
+        "#!/bin/sh\nfor out; do test \"$last\" = -o && break; last=$out; done\n\
+         case $out in *.so) {models};; *.o) {objects};; *) exec {} \"$@\";; esac\n",
+        tools.gxx.program.display()
+    );
+    // Written by a process that ends before it is run: one that is open cannot be run.
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", "printf %s \"$1\" >$2 && chmod +x $2", "sh", &script]).arg(&program);
+    assert!(shell.status().unwrap().success());
+    tools.gxx.program = program;
+    (folder, tools)
+}
+
+#[test]
+fn a_compiler_that_succeeds_without_a_model_is_an_error_that_leaves_nothing() {
+    let runtime = fresh_cache();
+    let objects = kept(runtime.path(), "runtime").remove(0);
+    let objects = format!("cp {}/$out .", objects.display());
+    for (objects, models, found) in [
+        (":", ":", "wrote no verilated.o"),
+        (">$out", ":", "wrote only a part of verilated.o"),
+        (objects.as_str(), ":", "wrote no model.so"),
+        (&objects, "head -c 1000 /bin/sh >$out", "wrote only a part of model.so"),
+        (&objects, "cp /bin/sh $out", "cannot load"),
+    ] {
+        let cache = tempfile::tempdir().unwrap();
+        let (_folder, tools) = false_compiler(objects, models);
+        let builder = Builder::new(tools, cache.path());
+        let interface = adder(0);
+        let spec = Spec { interface: &interface, rtl: &fixtures(), probes: &[] };
+        let error = builder.build(&spec).err().expect("an error").to_string();
+        assert!(error.contains(found), "{found}: {error}");
+        for left in ["sam_", ".wheatstone"] {
+            assert_eq!(kept(cache.path(), left), Vec::<PathBuf>::new(), "{found}");
+        }
+    }
 }

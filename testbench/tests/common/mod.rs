@@ -150,7 +150,12 @@ pub fn fresh_cache() -> tempfile::TempDir {
         let entry = entry.unwrap();
         let name = entry.file_name();
         if name.to_string_lossy().starts_with("runtime-") && entry.path().is_dir() {
-            std::os::unix::fs::symlink(entry.path(), folder.path().join(name)).unwrap();
+            let copy = folder.path().join(name);
+            std::fs::create_dir(&copy).unwrap();
+            for file in std::fs::read_dir(entry.path()).unwrap() {
+                let file = file.unwrap();
+                std::fs::copy(file.path(), copy.join(file.file_name())).unwrap();
+            }
         }
     }
     folder
