@@ -2,10 +2,14 @@
 //!
 //! A [`Process`] runs in a process group of its own, with nothing on its standard input but what it is given.
 //! It ends: after a limit of time its whole group is killed, and what it has started and left behind goes with
-//! it. What it prints is kept up to a bound. Who waits for long is told what for, see [`on_wait`].
+//! it. What it prints is kept up to a bound. Who waits for long is told what for, see [`on_tell`].
 
+mod ending;
 mod kept;
 mod usage;
+
+pub use ending::{end_now, on_signal, signal_status};
+pub use usage::{end_orphans, of_thread};
 
 use kept::Kept;
 use rustix::process::{kill_process_group, waitid, Pid, Signal, WaitId, WaitIdOptions};
@@ -346,8 +350,8 @@ fn live() -> MutexGuard<'static, Vec<Pid>> {
 }
 
 /// Kills all children, with all that they have started, for good: whoever starts another one or waits for one
-/// then waits until this process ends, which must follow. To be called once.
-pub fn end_all() {
+/// then waits until this process ends, which must follow.
+fn end_all() {
     let live = live();
     for group in live.iter() {
         let _ = kill_process_group(*group, Signal::KILL);
@@ -407,26 +411,29 @@ pub fn set_limit(limit: Duration) {
     SET.store(milliseconds, Ordering::Relaxed);
 }
 
+/// The time that a program may take, if one was set.
+pub fn set() -> Option<Duration> {
+    match SET.load(Ordering::Relaxed) {
+        0 => None,
+        milliseconds => Some(Duration::from_millis(milliseconds)),
+    }
+}
+
 /// The time that a program may take.
 pub fn limit() -> Duration {
-    match SET.load(Ordering::Relaxed) {
-        0 => LIMIT,
-        milliseconds => Duration::from_millis(milliseconds),
-    }
+    set().unwrap_or(LIMIT)
 }
 
 static TELL: OnceLock<fn(&str)> = OnceLock::new();
 
-/// Sets what shows the user a line about what is waited for; without it, none is shown. The first one counts.
-pub fn on_wait(tell: fn(&str)) {
+/// Sets what shows the user a line; without it, none is shown. The first one counts.
+pub fn on_tell(tell: fn(&str)) {
     let _ = TELL.set(tell);
 }
 
-/// Shows the user a line about what is waited for.
-pub fn tell(text: &str) {
-    if let Some(tell) = TELL.get() {
-        tell(text);
-    }
+/// Shows the user a line, such as what is waited for; tells whether there is a way to.
+pub fn tell(text: &str) -> bool {
+    TELL.get().map(|tell| tell(text)).is_some()
 }
 
 #[cfg(test)]

@@ -1,29 +1,85 @@
-//! Processor time that processes have used.
+//! What the system knows of processes: whose they are, and the processor time that they have used.
 
-use rustix::process::Pid;
+use rustix::process::{
+    getpgrp, getpid, kill_process, kill_process_group, wait, Pid, Signal, WaitOptions,
+};
 use std::fs;
-use std::time::Duration;
+use std::io;
+use std::thread;
+use std::time::{Duration, Instant};
 
-/// Processor time that the processes of a group have used, with those that they have started and waited for.
-pub(crate) fn of_group(group: Pid) -> Duration {
-    let group = group.as_raw_nonzero().get().to_string();
+/// Time in which killed processes must have ended.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// A line of `/proc/*/stat`.
+struct Stat {
+    parent: i32,
+    group: i32,
+    /// Ticks of user and system time, its own and those of the children that it has waited for.
+    ticks: [u64; 4],
+}
+
+impl Stat {
+    fn parse(line: &str) -> Option<Stat> {
+        // The name before it may have spaces and brackets in it. Then: state, parent, group ...
+        let (_, rest) = line.rsplit_once(") ")?;
+        let fields: Vec<&str> = rest.split(' ').collect();
+        let mut ticks = [0; 4];
+        for (ticks, field) in ticks.iter_mut().zip(fields.get(11..15)?) {
+            *ticks = field.parse().ok()?;
+        }
+        let id = |n: usize| fields.get(n)?.parse().ok();
+        Some(Stat { parent: id(1)?, group: id(2)?, ticks })
+    }
+}
+
+/// All processes.
+fn all() -> impl Iterator<Item = (i32, Stat)> {
     let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
-    let ids = entries.filter(|entry| entry.file_name().as_encoded_bytes()[0].is_ascii_digit());
-    let stats = ids.filter_map(|entry| fs::read_to_string(entry.path().join("stat")).ok());
-    let ticks: u64 = stats.filter_map(|stat| ticks(&stat, &group)).sum();
+    entries.filter_map(|entry| {
+        let id = entry.file_name().to_str()?.parse().ok()?;
+        Some((id, Stat::parse(&fs::read_to_string(entry.path().join("stat")).ok()?)?))
+    })
+}
+
+fn time(ticks: u64) -> Duration {
     Duration::from_millis(ticks * 1000 / rustix::param::clock_ticks_per_second().max(1))
 }
 
-/// The time in a line of `/proc/*/stat`, in ticks, if the process is in the group.
-fn ticks(stat: &str, group: &str) -> Option<u64> {
-    // The name before it may have spaces and brackets in it. Then: state, parent, group ...
-    let (_, rest) = stat.rsplit_once(") ")?;
-    let fields: Vec<&str> = rest.split(' ').collect();
-    if fields.get(2) != Some(&group) {
-        return None;
+/// Processor time that the processes of a group have used, with those that they have started and waited for.
+pub(crate) fn of_group(group: Pid) -> Duration {
+    let group = group.as_raw_nonzero().get();
+    let members = all().filter(|(_, stat)| stat.group == group);
+    time(members.flat_map(|(_, stat)| stat.ticks).sum())
+}
+
+/// Processor time that a thread of this process has used.
+pub fn of_thread(id: i32) -> io::Result<Duration> {
+    let line = fs::read_to_string(format!("/proc/self/task/{id}/stat"))?;
+    let stat = Stat::parse(&line).ok_or(io::ErrorKind::InvalidData)?;
+    Ok(time(stat.ticks[0] + stat.ticks[1]))
+}
+
+/// Kills all children of this process and what they have started, those too that a child which died has left to it.
+/// They are those of the group of this process and of groups of their own.
+pub fn end_orphans() {
+    let (own, group) = (getpid().as_raw_nonzero().get(), getpgrp().as_raw_nonzero().get());
+    let start = Instant::now();
+    // Those whose parent was killed come to this process a moment later.
+    while start.elapsed() < PATIENCE {
+        let children: Vec<(i32, Stat)> = all().filter(|(_, stat)| stat.parent == own).collect();
+        for (id, stat) in &children {
+            let _ = match Pid::from_raw(stat.group).filter(|_| stat.group != group) {
+                Some(group) => kill_process_group(group, Signal::KILL),
+                None => Pid::from_raw(*id).map_or(Ok(()), |id| kill_process(id, Signal::KILL)),
+            };
+        }
+        if children.is_empty() {
+            break;
+        }
+        while wait(WaitOptions::NOHANG).is_ok_and(|ended| ended.is_some()) {}
+        thread::sleep(Duration::from_millis(2));
     }
-    // User and system time, of itself and of the children that it has waited for.
-    fields.get(11..15)?.iter().map(|field| field.parse::<u64>().ok()).sum()
 }
 
 #[cfg(test)]
@@ -31,9 +87,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_are_read_of_a_group() {
-        let stat = "12 (a) b (c) R 1 77 77 0 -1 4194304 100 0 0 0 3 4 50 600 20 0 1 0 1 1 1";
-        assert_eq!(ticks(stat, "77"), Some(657));
-        assert_eq!(ticks(stat, "1"), None);
+    fn the_line_of_a_process_is_read() {
+        let line = "12 (a) b (c) R 1 77 77 0 -1 4194304 100 0 0 0 3 4 50 600 20 0 1 0 1 1 1";
+        let stat = Stat::parse(line).unwrap();
+        assert_eq!((stat.parent, stat.group, stat.ticks), (1, 77, [3, 4, 50, 600]));
+        assert!(Stat::parse("12 (a) R").is_none());
     }
 }

@@ -6,6 +6,7 @@ use crate::job::{Job, JobError, Responder, TraceWindow};
 use crate::model::{Library, LoadError, Model, TraceError};
 use crate::outcome::Outcome;
 use crate::stalls::Stalls;
+use crate::watch::Watched;
 use wheatstone_golden::interface::Direction;
 
 /// A model in its test bench.
@@ -98,6 +99,7 @@ impl Bench {
         let library = self.model.library().clone();
         let (interface, layout) = (library.interface(), library.layout());
         job.check(interface, library.probes(), layout, responder.is_some())?;
+        let watched = Watched::new(interface.module);
         for (index, &value) in job.statics.iter().enumerate() {
             self.model.poke(layout.static_input(index), value);
         }
@@ -107,7 +109,7 @@ impl Bench {
         self.prepare(job.stalls);
         let start = self.cycle;
         let mut run = Run::new(&library, job, &self.gates.1, &self.junk);
-        let (result, end) = run.go(&mut self.model, start, job.limits, responder);
+        let (result, end) = run.go(&mut self.model, start, job.limits, responder, &watched);
         self.cycle = end;
         self.model.trace_flush();
         let result = result.and_then(|()| run.check_end(&self.model, end - 1, job.flags));

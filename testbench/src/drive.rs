@@ -22,6 +22,7 @@ use crate::job::{Job, Limits, Responder};
 use crate::model::{Library, Model, Seen};
 use crate::outcome::Outcome;
 use crate::stalls::Pattern;
+use crate::watch::Watched;
 use report::payload;
 use wheatstone_golden::interface::{Direction, Table};
 
@@ -114,6 +115,7 @@ impl<'a> Run<'a> {
         start: u64,
         limits: Limits,
         mut responder: Option<&mut dyn Responder>,
+        watched: &Watched,
     ) -> (Result<(), Outcome>, u64) {
         let asked = self.inputs & !self.tabled;
         let checked = u64::from(self.outputs & self.tabled) | Seen::STOPPED;
@@ -133,6 +135,7 @@ impl<'a> Run<'a> {
             let willing = if self.until_valid { state.held } else { self.outputs };
             let drive = state.offered | (gate & willing);
             let junk = &self.junk[cycle as usize % JUNK];
+            watched.clock(cycle);
             let Seen { seen, wrong } = model.cycle(cycle, drive, pokes, &mut self.cursors, junk);
             let (seen, ended) = (seen as u32, (seen >> 32) as u32);
 

@@ -38,6 +38,7 @@ pub mod synth;
 pub mod tools;
 pub mod verification;
 mod verilate;
+mod watch;
 pub mod waves;
 
 pub use bench::Bench;

@@ -11,6 +11,7 @@
 use crate::cover::Collector;
 use crate::cursors::{Cursor, Cursors, Words};
 use crate::layout::{Layout, Probe, CLOCK, RESET};
+use crate::watch::Watched;
 use libloading::Library as Object;
 use std::ffi::{c_char, c_int, c_void, CStr, CString};
 use std::ops::Range;
@@ -148,6 +149,7 @@ impl Library {
             return Err(LoadError::TooManyStreams(interface.module.to_owned()));
         }
         let at = |source| LoadError::Object { path: path.to_owned(), source };
+        let _watched = Watched::new(interface.module);
         let private = private(path, content)
             .map_err(|source| LoadError::Copy { path: path.to_owned(), source })?;
         // SAFETY: the object's initialisers are those of Verilator's runtime and the C++ library.
@@ -255,6 +257,7 @@ impl Model {
                 .map_or_else(|_| String::new(), |text| text.to_string_lossy().into_owned()),
         };
         let api = &library.loaded.api;
+        let _watched = Watched::new(library.interface().module);
         // SAFETY: the buffer is as long as said and begins with a zero.
         let handle = unsafe {
             let _one = CREATION.lock().unwrap_or_else(PoisonError::into_inner);
@@ -494,6 +497,7 @@ impl Model {
 impl Drop for Model {
     fn drop(&mut self) {
         self.leave_coverage();
+        let _watched = Watched::new(self.library.interface().module);
         // SAFETY: the handle is not used again; deletion closes the trace.
         unsafe { (self.library.loaded.api.delete)(self.handle.as_ptr()) }
     }

@@ -70,6 +70,17 @@ void vl_fatal(const char* file, int line, const char*, const char* message) {
     throw Fatal{};
 }
 
+// A model that ends the process by $c or DPI would look like a run that came to its end. The linker puts these
+// in the place of the functions of that name.
+[[noreturn]] static void refuse_exit(const char* name, int status) {
+    std::fprintf(stderr, "\nerror: the model calls %s(%d)\n", name, status);
+    std::abort();
+}
+extern "C" [[noreturn]] void __wrap_exit(int status) { refuse_exit("exit", status); }
+extern "C" [[noreturn]] void __wrap__exit(int status) { refuse_exit("_exit", status); }
+extern "C" [[noreturn]] void __wrap__Exit(int status) { refuse_exit("_Exit", status); }
+extern "C" [[noreturn]] void __wrap_quick_exit(int status) { refuse_exit("quick_exit", status); }
+
 // What the model prints is kept: it explains the $stop that follows.
 extern "C" int wheatstone_print(const char* format, ...) {
     va_list arguments;

@@ -23,6 +23,9 @@ extern \"C\" FILE* wheatstone_nowhere();
 #define stderr wheatstone_nowhere()
 ";
 
+/// Functions that end a process, which the shim replaces.
+pub(crate) const REPLACED: [&str; 4] = ["exit", "_exit", "_Exit", "quick_exit"];
+
 /// The whole shim, but for the list of Verilator's files that it includes.
 pub(crate) fn text(interface: &Interface, probes: &[Probe], layout: &Layout) -> String {
     let mut text = format!(
@@ -60,7 +63,8 @@ pub(crate) fn head(files: &[String], key: &str) -> String {
         lines(&fast),
         lines(&slow)
     );
-    let standard = ["atomic", "cstdarg", "cstdio", "cstring", "memory", "stdexcept", "string"];
+    let standard =
+        ["atomic", "cstdarg", "cstdio", "cstdlib", "cstring", "memory", "stdexcept", "string"];
     for header in standard {
         let _ = writeln!(text, "#include <{header}>");
     }

@@ -270,7 +270,7 @@ impl Builder {
     /// A lock between all that build into this cache.
     fn lock(&self, name: &str) -> Result<Lock, BuildError> {
         let (file, limit) = (self.cache.join(name), wheatstone_process::limit());
-        Lock::take(&file, limit, wheatstone_process::tell).map_err(|error| {
+        Lock::take(&file, limit, |line| _ = wheatstone_process::tell(line)).map_err(|error| {
             match error.source.kind() {
                 io::ErrorKind::TimedOut => BuildError::Lock(error),
                 _ => BuildError::Cache { path: error.file, source: error.source },
@@ -421,6 +421,7 @@ impl Job<'_> {
         write(&temporary.join("cpp/model.cpp"), unit.as_bytes())?;
         let mut command = self.builder.compiler(temporary);
         command.args(["-shared", "-Wl,-Bsymbolic", "-I", "cpp", "cpp/model.cpp"]);
+        command.args(shim::REPLACED.map(|name| format!("-Wl,--wrap={name}")));
         command.args(runtime.iter().map(|object| absolute(object)));
         command.args(["-o", OBJECT, "-pthread", "-lz"]);
         let object = temporary.join(OBJECT);

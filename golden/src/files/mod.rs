@@ -9,6 +9,7 @@ mod publish;
 mod read;
 mod scratch;
 mod set;
+mod temporary;
 mod write;
 
 pub use lock::{Lock, LockError};
@@ -16,6 +17,7 @@ pub use publish::publish;
 pub use read::{read, ReadError};
 pub use scratch::{Scratch, Tidy};
 pub use set::Set;
+pub use temporary::remove_temporary;
 pub use write::{write, WriteError};
 
 use std::fs::{File, FileType};

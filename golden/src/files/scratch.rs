@@ -1,6 +1,7 @@
 //! Files and folders that are not left behind: temporary ones, also of killed processes, and empty ones.
 
 use super::lock::within;
+use super::temporary::Temporary;
 use super::WriteError;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io;
@@ -21,6 +22,7 @@ const LIMIT: Duration = Duration::from_secs(30);
 #[derive(Debug)]
 pub struct Scratch {
     folder: TempDir,
+    _temporary: Temporary,
     _lock: File,
 }
 
@@ -39,11 +41,12 @@ impl Scratch {
             // As for any new folder: the umask decides.
             let mode = Permissions::from_mode(0o777);
             let mut builder = tempfile::Builder::new();
-            let folder =
-                builder.prefix(PREFIX).suffix(SUFFIX).permissions(mode).tempdir_in(parent)?;
+            builder.prefix(PREFIX).suffix(SUFFIX).permissions(mode);
+            let (temporary, folder) =
+                Temporary::make(|| builder.tempdir_in(parent), |folder| folder.path())?;
             let lock = File::open(folder.path());
             match lock.and_then(|lock| own(&lock, folder.path()).map(|_| lock)) {
-                Ok(lock) => return Ok(Scratch { folder, _lock: lock }),
+                Ok(lock) => return Ok(Scratch { folder, _temporary: temporary, _lock: lock }),
                 // Another process took it for one that belongs to nobody.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
                 Err(error) => return Err(error),
@@ -63,14 +66,16 @@ impl Scratch {
 }
 
 /// A new temporary file, locked as a [`Scratch`] is.
-pub(super) fn file(parent: &Path) -> io::Result<NamedTempFile> {
+pub(super) fn file(parent: &Path) -> io::Result<(Temporary, NamedTempFile)> {
     sweep(parent);
     loop {
         let mode = Permissions::from_mode(0o666);
         let mut builder = tempfile::Builder::new();
-        let file = builder.prefix(PREFIX).suffix(SUFFIX).permissions(mode).tempfile_in(parent)?;
+        builder.prefix(PREFIX).suffix(SUFFIX).permissions(mode);
+        let (temporary, file) =
+            Temporary::make(|| builder.tempfile_in(parent), |file| file.path())?;
         match own(file.as_file(), file.path()) {
-            Ok(()) => return Ok(file),
+            Ok(()) => return Ok((temporary, file)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(error),
         }
@@ -121,20 +126,24 @@ fn remove_if_free(path: &Path, is_folder: bool) -> io::Result<()> {
 
 /// Folders that were not there before: those that are empty are removed when this is dropped.
 #[derive(Debug)]
-pub struct Tidy(Vec<PathBuf>);
+pub struct Tidy {
+    folders: Vec<PathBuf>,
+    _temporary: Temporary,
+}
 
 impl Tidy {
     /// A folder that may be made, and those above it.
     pub fn new(folder: &Path) -> Tidy {
         let missing = folder.ancestors().take_while(|f| !f.as_os_str().is_empty() && !f.exists());
-        Tidy(missing.map(Path::to_path_buf).collect())
+        let folders: Vec<PathBuf> = missing.map(Path::to_path_buf).collect();
+        Tidy { _temporary: Temporary::if_empty(&folders), folders }
     }
 }
 
 impl Drop for Tidy {
     fn drop(&mut self) {
         // The lowest comes first; one with something in it cannot be removed.
-        self.0.iter().for_each(|folder| drop(fs::remove_dir(folder)));
+        self.folders.iter().for_each(|folder| drop(fs::remove_dir(folder)));
     }
 }
 

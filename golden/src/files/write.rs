@@ -79,7 +79,7 @@ fn replace(file: &Path, content: &[u8]) -> io::Result<()> {
     let folder = super::parent(file);
     let _tidy = Tidy::new(folder);
     fs::create_dir_all(folder)?;
-    let mut temporary = scratch::file(folder)?;
+    let (_mark, mut temporary) = scratch::file(folder)?;
     temporary.write_all(content)?;
     temporary.as_file().sync_all()?;
     temporary.persist(file).map_err(|error| error.error)?;
@@ -208,7 +208,7 @@ mod tests {
     fn what_a_killed_writer_left_is_swept() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join(".wheatstone-abc.part"), "half").unwrap();
-        let alive = scratch::file(folder.path()).unwrap();
+        let (_mark, alive) = scratch::file(folder.path()).unwrap();
         write(&folder.path().join("a/b/file"), b"content").unwrap();
         write(&folder.path().join("file"), b"content").unwrap();
         let alive = alive.path().file_name().unwrap().to_str().unwrap();

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use thiserror::Error;
 use wheatstone_golden::direct::Direct;
+use wheatstone_golden::files::Scratch;
 use wheatstone_golden::formats::{Eye, Formats, DEPTH_MAX, FRACTION_BITS};
 use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::setup::{Attributes, Polygon};
@@ -35,7 +36,7 @@ pub enum OpenGlError {
 /// A program that draws with OpenGL. It is removed with its folder when it is dropped.
 #[derive(Debug)]
 pub struct Renderer {
-    folder: tempfile::TempDir,
+    folder: Scratch,
     /// Number of threads that it may draw with; as many as there are processors where none is given.
     pub threads: Option<u32>,
 }
@@ -55,7 +56,7 @@ impl Renderer {
     /// Compiles the program.
     pub fn build() -> Result<Renderer, OpenGlError> {
         let failed = |error: std::io::Error| OpenGlError::Failed(error.to_string());
-        let folder = tempfile::tempdir().map_err(failed)?;
+        let folder = Scratch::new(&std::env::temp_dir()).map_err(failed)?;
         let source = folder.path().join("opengl_ids.c");
         std::fs::write(&source, include_str!("opengl_ids.c")).map_err(failed)?;
         let renderer = Renderer { folder, threads: None };

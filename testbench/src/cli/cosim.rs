@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::regression::{self, command_line, counted, Entry, Event, NamedScene, Plan, Waves};
+use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Mutex;
 use wheatstone_golden::files::Tidy;
 use wheatstone_golden::files::{self, Set};

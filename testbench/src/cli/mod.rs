@@ -1,6 +1,6 @@
 //! The program `wheatstone`.
 //!
-//! Exit status: 0 all compared and equal, 1 mismatch, 2 bad input, 3 a tool is missing.
+//! Its exit statuses are in `failure.rs` and in its help.
 
 /// Prints a line. A reader that has gone away, as `head` does, is no reason to fail.
 macro_rules! say {
@@ -22,40 +22,33 @@ mod baseline;
 mod compare;
 mod cosim;
 mod cover;
+mod failure;
 mod generate;
 mod info;
 mod mutate;
+mod progress;
 mod prove;
 mod render;
 mod replay;
 mod reproduce;
 mod rig;
+mod supervise;
 mod synth;
 mod vectors;
 mod waves;
 
-use crate::baseline::BaselineError;
-use crate::cover::CoverError;
-use crate::generated::GenerateError;
-use crate::mutation::MutationError;
-use crate::pack::PackError;
-use crate::regression::RegressionError;
-use crate::replay::ReplayError;
-use crate::settings::{SettingError, Settings};
-use crate::synth::record::RecordError;
-use crate::synth::SynthError;
-use crate::tools::{ToolError, Toolchain};
-use crate::verification::{self, Record, VerificationError};
-use crate::{BuildError, Builder};
+use crate::settings::Settings;
+use crate::tools::Toolchain;
+use crate::verification::{self, Record};
+use crate::watch;
+use crate::Builder;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
+use failure::{Failure, BAD_INPUT, MISMATCH, MISSING_TOOL, OK, STATUSES, UNFINISHED};
+use progress::{clear_line, is_terminal, tell_line, turn, Spinner};
 use std::ffi::OsString;
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
-use thiserror::Error;
 use wheatstone_golden::files::WriteError;
 use wheatstone_golden::formats::Formats;
 use wheatstone_golden::projection::Kind;
@@ -66,26 +59,16 @@ use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
 use wheatstone_golden::text::printable_path;
 use wheatstone_studies::volume::Volume;
-use wheatstone_studies::StudyError;
-
-/// Everything worked and was equal.
-const OK: u8 = 0;
-/// Something was compared and differs.
-const MISMATCH: u8 = 1;
-/// The input is wrong.
-const BAD_INPUT: u8 = 2;
-/// A tool is missing.
-const MISSING_TOOL: u8 = 3;
 
 /// An open stereoscopic rasteriser: simulate it, prove it, put it on an FPGA.
-///
-/// Exit status: 0 all compared and equal, 1 mismatch, 2 bad input, 3 a tool is missing.
 #[derive(Debug, Parser)]
-#[command(name = "wheatstone", version, arg_required_else_help = true, after_help = EXAMPLES)]
+#[command(name = "wheatstone", version, arg_required_else_help = true)]
+#[command(after_help = format!("{EXAMPLES}\n\n{STATUSES}"))]
 struct Cli {
     #[command(subcommand)]
     command: Command,
-    /// Stop any program that is called and has not ended after so many seconds [default: 3600]
+    /// Stop a program that is called and has not ended after so many seconds, and a model that has used so
+    /// many of processor time for one clock [default: 3600, and 20]
     #[arg(long, global = true, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..))]
     timeout: Option<u32>,
 }
@@ -216,96 +199,62 @@ fn parse_target(text: &str) -> Result<Target, String> {
     Target::named(text).ok_or_else(|| format!("no such target; there are: {}", names.join(", ")))
 }
 
-/// Why a command could not do its work.
-#[derive(Debug, Error)]
-enum Failure {
-    #[error(transparent)]
-    Setting(#[from] SettingError),
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    #[error(transparent)]
-    Study(#[from] StudyError),
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    #[error(transparent)]
-    Pack(#[from] PackError),
-    #[error(transparent)]
-    Tool(#[from] ToolError),
-    #[error(transparent)]
-    Regression(#[from] RegressionError),
-    #[error(transparent)]
-    Generate(#[from] GenerateError),
-    #[error(transparent)]
-    Synth(#[from] SynthError),
-    #[error(transparent)]
-    Replay(#[from] ReplayError),
-    #[error(transparent)]
-    Cover(#[from] CoverError),
-    #[error(transparent)]
-    Verification(#[from] VerificationError),
-    #[error(transparent)]
-    Mutation(#[from] MutationError),
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    #[error(transparent)]
-    Baseline(#[from] BaselineError),
-    #[error("{0}")]
-    Input(String),
-}
-
-impl Failure {
-    fn status(&self) -> u8 {
-        match self {
-            Failure::Tool(_)
-            | Failure::Synth(SynthError::Tool(_))
-            | Failure::Replay(ReplayError::Tool(_) | ReplayError::Synth(SynthError::Tool(_)))
-            | Failure::Mutation(
-                MutationError::Tool(_)
-                | MutationError::Synth(SynthError::Tool(_))
-                | MutationError::Regression(RegressionError::Build(BuildError::Tool(_))),
-            )
-            | Failure::Regression(RegressionError::Build(BuildError::Tool(_)))
-            | Failure::Cover(CoverError::Regression(RegressionError::Build(BuildError::Tool(_))))
-            | Failure::Baseline(BaselineError::Regression(RegressionError::Build(
-                BuildError::Tool(_),
-            ))) => MISSING_TOOL,
-            Failure::Baseline(BaselineError::Differs { .. }) => MISMATCH,
-            _ => BAD_INPUT,
-        }
-    }
-}
-
 /// Runs the program.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
-    wheatstone_process::on_wait(tell_waiting);
+    let is_child = supervise::is_child();
+    if cli.command.is_supervised() && !is_child {
+        return ExitCode::from(supervise::supervise());
+    }
+    wheatstone_process::on_tell(tell_line);
+    wheatstone_process::on_signal(|signal| {
+        clear_line();
+        watch::end(wheatstone_process::signal_status(signal))
+    });
     if let Some(seconds) = cli.timeout {
         wheatstone_process::set_limit(Duration::from_secs(seconds.into()));
     }
-    let result = match &cli.command {
-        Command::Cosim(args) => cosim::run(args),
-        Command::Vectors(args) => vectors::write(args),
-        Command::Check(args) => vectors::check(args),
-        Command::Replay(args) => replay::run(args),
-        Command::Cover(args) => cover::run(args),
-        Command::Waves(args) => waves::run(args),
-        Command::Render(args) => render::run(args),
-        Command::Compare(args) => compare::run(args),
-        Command::Rig(args) => rig::run(args),
-        Command::Reproduce(args) => reproduce::run(args),
-        Command::Synth(args) => synth::run(args),
-        Command::Baseline(args) => baseline::run(args),
-        Command::Prove(args) => prove::run(args),
-        Command::Mutate(args) => mutate::run(args),
-        Command::List(args) => info::list(args),
-        Command::Doctor(args) => info::doctor(args),
-        Command::Generate(args) => generate::run(args),
-    };
-    let status = result.unwrap_or_else(|failure| {
+    let status = cli.command.run().unwrap_or_else(|failure| {
         tell!("error: {failure}");
         failure.status()
     });
+    watch::finish(status);
     ExitCode::from(status)
+}
+
+impl Command {
+    /// Whether it is run in a child process: where models are loaded or tools called.
+    fn is_supervised(&self) -> bool {
+        use Command as C;
+        match self {
+            C::Cosim(_) | C::Replay(_) | C::Cover(_) | C::Waves(_) => true,
+            C::Synth(_) | C::Baseline(_) | C::Prove(_) | C::Mutate(_) => true,
+            C::Vectors(_) | C::Check(_) | C::Render(_) | C::Compare(_) | C::Rig(_) => false,
+            C::Reproduce(_) | C::List(_) | C::Doctor(_) | C::Generate(_) => false,
+        }
+    }
+
+    fn run(&self) -> Result<u8, Failure> {
+        match self {
+            Command::Cosim(args) => cosim::run(args),
+            Command::Vectors(args) => vectors::write(args),
+            Command::Check(args) => vectors::check(args),
+            Command::Replay(args) => replay::run(args),
+            Command::Cover(args) => cover::run(args),
+            Command::Waves(args) => waves::run(args),
+            Command::Render(args) => render::run(args),
+            Command::Compare(args) => compare::run(args),
+            Command::Rig(args) => rig::run(args),
+            Command::Reproduce(args) => reproduce::run(args),
+            Command::Synth(args) => synth::run(args),
+            Command::Baseline(args) => baseline::run(args),
+            Command::Prove(args) => prove::run(args),
+            Command::Mutate(args) => mutate::run(args),
+            Command::List(args) => info::list(args),
+            Command::Doctor(args) => info::doctor(args),
+            Command::Generate(args) => generate::run(args),
+        }
+    }
 }
 
 impl Common {
@@ -532,69 +481,6 @@ fn cache_folder(
 /// Folder for what a command writes when no other is named.
 fn output_folder(name: &str) -> PathBuf {
     Path::new("target/wheatstone").join(name)
-}
-
-/// Whether progress can be drawn over.
-fn is_terminal() -> bool {
-    std::io::stderr().is_terminal()
-}
-
-/// The bar or spinner that turns in the terminal, if one does.
-static TURNING: Mutex<Option<ProgressBar>> = Mutex::new(None);
-
-/// Notes what turns from now on.
-fn turn(bar: Option<ProgressBar>) {
-    *TURNING.lock().unwrap_or_else(PoisonError::into_inner) = bar;
-}
-
-/// Tells what is waited for.
-fn tell_waiting(text: &str) {
-    match &*TURNING.lock().unwrap_or_else(PoisonError::into_inner) {
-        Some(bar) => bar.suspend(|| tell!("{text}")),
-        None => tell!("{text}"),
-    }
-}
-
-/// Tells what is being worked on: beside a spinner in a terminal, a line each elsewhere.
-struct Spinner(Option<ProgressBar>);
-
-impl Spinner {
-    fn new() -> Spinner {
-        let style = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}");
-        let bar = is_terminal().then(ProgressBar::new_spinner);
-        if let (Some(bar), Ok(style)) = (&bar, style) {
-            bar.set_style(style);
-            bar.enable_steady_tick(Duration::from_millis(200));
-        }
-        turn(bar.clone());
-        Spinner(bar)
-    }
-
-    fn tell(&self, name: &str, description: &str) {
-        use std::io::Write;
-        let text = format!("{name}: {description}");
-        match &self.0 {
-            Some(bar) => bar.set_message(text),
-            None => drop(writeln!(std::io::stderr(), "{text}")),
-        }
-    }
-
-    /// Prints without tearing the spinner.
-    fn print(&self, print: impl FnOnce()) {
-        match &self.0 {
-            Some(bar) => bar.suspend(print),
-            None => print(),
-        }
-    }
-}
-
-impl Drop for Spinner {
-    fn drop(&mut self) {
-        if let Some(bar) = &self.0 {
-            bar.finish_and_clear();
-        }
-        turn(None);
-    }
 }
 
 /// Names of the built-in scenes.

@@ -9,6 +9,7 @@ use crate::synth::Synthesiser;
 use crate::verification::Replay;
 use rayon::prelude::*;
 use wheatstone_golden::files;
+use wheatstone_golden::files::Scratch;
 
 /// Random beats of a pack: what the netlist of a system takes in a minute or two.
 const BEATS: u64 = 1_000;
@@ -106,8 +107,7 @@ pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
     let rtl = rtl_folder(&args.rtl)?;
     let recorded = args.check.then(verification_record).transpose()?;
     let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
-    let made =
-        tempfile::tempdir().map_err(|source| WriteError { file: std::env::temp_dir(), source })?;
+    let made = Scratch::below(&std::env::temp_dir())?;
     let packs = match &args.packs {
         Some(folder) => found(folder, &args.targets)?,
         None => make(args, &rtl, made.path())?,

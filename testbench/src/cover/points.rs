@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
+use wheatstone_golden::files::Scratch;
 
 /// Whether a line was run, or a bit changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -54,9 +55,10 @@ impl Collector {
     /// Adds what `write` puts into the file of the path it gets; keeps the first error.
     pub(crate) fn add(&self, write: impl FnOnce(&Path) -> io::Result<()>) {
         let read = || {
-            let file = tempfile::NamedTempFile::new()?;
-            write(file.path())?;
-            parse(&std::fs::read_to_string(file.path())?)
+            let folder = Scratch::new(&std::env::temp_dir())?;
+            let file = folder.path().join("coverage");
+            write(&file)?;
+            parse(&std::fs::read_to_string(&file)?)
         };
         let counted = read();
         let mut collected = self.0.lock().unwrap_or_else(PoisonError::into_inner);

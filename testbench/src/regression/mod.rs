@@ -18,6 +18,7 @@ pub use waves::{record_waves, scene_head, Focus, Waves as WaveFile};
 
 use crate::cases::{self, Case};
 use crate::settings::Settings;
+use crate::watch;
 use crate::{BuildError, Builder, JobError, Library, LoadError, Pattern, Spec, Stalls, TraceError};
 use failure::Attempt;
 use rayon::prelude::*;
@@ -302,18 +303,22 @@ fn do_work(
     let ground = |target: Target| -> Result<Ground, RegressionError> {
         Ok(Ground { plan, tell, library: models.get(target)?, target })
     };
+    let begin = |target: Target, case: &str| {
+        watch::case(target.name(), case);
+        tell(Event::Begin(target, case));
+    };
     let entry = match work {
         Work::Directed(target, n) => {
             let case = cases::directed(*target, &plan.settings.config).swap_remove(*n);
-            tell(Event::Begin(*target, &case.name));
+            begin(*target, &case.name);
             directed(&ground(*target)?, &case)?
         }
         Work::Random(target) => {
-            tell(Event::Begin(*target, RANDOM));
+            begin(*target, RANDOM);
             random(&ground(*target)?)?
         }
         Work::Scene(target, scene) => {
-            tell(Event::Begin(*target, &scene.name));
+            begin(*target, &scene.name);
             draw(&ground(*target)?, scene)?
         }
     };

@@ -1,0 +1,115 @@
+//! Why a command fails, and the exit statuses.
+
+use crate::baseline::BaselineError;
+use crate::cover::CoverError;
+use crate::generated::GenerateError;
+use crate::mutation::MutationError;
+use crate::pack::PackError;
+use crate::regression::RegressionError;
+use crate::replay::ReplayError;
+use crate::settings::SettingError;
+use crate::synth::record::RecordError;
+use crate::synth::SynthError;
+use crate::tools::ToolError;
+use crate::verification::VerificationError;
+use crate::BuildError;
+use thiserror::Error;
+use wheatstone_golden::files::WriteError;
+use wheatstone_golden::scene::SceneError;
+use wheatstone_process::ProcessError;
+use wheatstone_studies::StudyError;
+
+/// Everything worked and was equal.
+pub(super) const OK: u8 = 0;
+/// Something was compared and differs.
+pub(super) const MISMATCH: u8 = 1;
+/// The input is wrong.
+pub(super) const BAD_INPUT: u8 = 2;
+/// A tool is missing, or does not run.
+pub(super) const MISSING_TOOL: u8 = 3;
+/// The run ended before its work was done: a tool or a model did not end, or ended the program.
+pub(super) use crate::watch::UNFINISHED;
+
+/// What they mean, for the help of the program.
+pub(super) const STATUSES: &str = "Exit status:
+  0    all compared and equal, or done
+  1    a mismatch, or worse than recorded
+  2    bad input, or it cannot be read or written
+  3    a tool is missing, too old, or does not run
+  4    the run ended before its work was done: a tool or a model did not end in time, or a model
+       ended or crashed the program
+  129, 130, 143
+       ended by SIGHUP, SIGINT or SIGTERM; programs that it had started are ended too, and nothing
+       half done is left";
+
+/// Why a command could not do its work.
+#[derive(Debug, Error)]
+pub(super) enum Failure {
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    #[error(transparent)]
+    Pack(#[from] PackError),
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+    #[error(transparent)]
+    Regression(#[from] RegressionError),
+    #[error(transparent)]
+    Generate(#[from] GenerateError),
+    #[error(transparent)]
+    Synth(#[from] SynthError),
+    #[error(transparent)]
+    Replay(#[from] ReplayError),
+    #[error(transparent)]
+    Cover(#[from] CoverError),
+    #[error(transparent)]
+    Verification(#[from] VerificationError),
+    #[error(transparent)]
+    Mutation(#[from] MutationError),
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error(transparent)]
+    Baseline(#[from] BaselineError),
+    #[error("{0}")]
+    Input(String),
+}
+
+impl Failure {
+    pub(super) fn status(&self) -> u8 {
+        match self {
+            Failure::Baseline(BaselineError::Differs { .. }) => MISMATCH,
+            Failure::Tool(_)
+            | Failure::Replay(ReplayError::Tool(_))
+            | Failure::Mutation(MutationError::Tool(_)) => MISSING_TOOL,
+            Failure::Synth(error)
+            | Failure::Replay(ReplayError::Synth(error))
+            | Failure::Mutation(MutationError::Synth(error)) => match error {
+                SynthError::Tool(_) => MISSING_TOOL,
+                SynthError::Process(error) => of_process(error),
+                _ => BAD_INPUT,
+            },
+            Failure::Regression(error)
+            | Failure::Cover(CoverError::Regression(error))
+            | Failure::Baseline(BaselineError::Regression(error))
+            | Failure::Mutation(MutationError::Regression(error)) => match error {
+                RegressionError::Build(BuildError::Tool(_)) => MISSING_TOOL,
+                RegressionError::Build(BuildError::Process(error)) => of_process(error),
+                _ => BAD_INPUT,
+            },
+            Failure::Replay(ReplayError::Process(error)) => of_process(error),
+            _ => BAD_INPUT,
+        }
+    }
+}
+
+fn of_process(error: &ProcessError) -> u8 {
+    match error {
+        ProcessError::Start { .. } => MISSING_TOOL,
+        ProcessError::Hung { .. } | ProcessError::Flood { .. } => UNFINISHED,
+    }
+}

@@ -1,0 +1,294 @@
+//! Tools and models that hang, print without end, crash or end the program; signals; what is left then.
+
+use std::fs;
+use std::io::Read;
+use std::os::unix::process::ExitStatusExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// A workspace with Verilog, and a folder of tools that stands first in PATH.
+struct Place(TempDir);
+
+/// What a Verilator must answer before it is called for a model.
+const ANSWERS: &str = "case $1 in
+    --version) echo 'Verilator 5.006 2023-01-22'; exit;;
+    --getenv) echo \"$(dirname \"$0\")/root\"; exit;;
+esac\n";
+
+impl Place {
+    fn new() -> Place {
+        let place = Place(tempfile::tempdir().expect("a folder"));
+        let rtl = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("rtl");
+        // Written by another program: no child of a test running beside this one may have a script open.
+        place.shell(&format!("cp -r '{}' rtl && mkdir -p bin/root/include", rtl.display()));
+        place.shell("cd bin/root/include && touch verilated.cpp verilated_threads.cpp verilated_fst_c.cpp verilated_cov.cpp");
+        let compile = "while [ $# -gt 0 ]; do [ \"$1\" = -o ] && echo object > \"$2\"; shift; done";
+        place.tool("g++", &format!("[ $1 = -dumpfullversion ] && echo 12.2.0 && exit\n[ $1 = -E ] && echo /usr/include/zlib.h && exit\n{compile}"));
+        place
+    }
+
+    fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    fn shell(&self, script: &str) {
+        let mut shell = Command::new("sh");
+        let status = shell.current_dir(self.path()).args(["-ec", script]).status();
+        assert!(status.expect("sh").success(), "{script}");
+    }
+
+    /// Puts a script in the place of a tool.
+    fn tool(&self, name: &str, script: &str) {
+        let mut shell = Command::new("sh");
+        shell.current_dir(self.path()).env("TEXT", format!("#!/bin/sh\n{script}\n"));
+        let write = format!("printf %s \"$TEXT\" > 'bin/{name}' && chmod +x 'bin/{name}'");
+        assert!(shell.args(["-ec", &write]).status().expect("sh").success());
+    }
+
+    /// A Verilator that answers, and then does this.
+    fn verilator(&self, script: &str) {
+        self.tool("verilator", &format!("{ANSWERS}{script}"));
+    }
+
+    fn wheatstone(&self, line: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_wheatstone"));
+        let path = std::env::var("PATH").unwrap_or_default();
+        command.current_dir(self.path()).args(line.split_whitespace());
+        command.env("PATH", format!("{}:{path}", self.path().join("bin").display()));
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    fn run(&self, line: &str) -> (Option<i32>, String) {
+        told(self.wheatstone(line).output().expect("the program runs"))
+    }
+
+    /// Starts the program and waits until a tool has said which process it is.
+    fn start(&self, line: &str) -> (Child, String) {
+        let child = self.wheatstone(line).spawn().expect("the program runs");
+        let file = self.path().join("pid");
+        let pid = || fs::read_to_string(&file).ok().filter(|text| text.ends_with('\n'));
+        assert!(soon(|| pid().is_some()), "the tool does not run");
+        (child, pid().unwrap_or_default().trim().to_owned())
+    }
+
+    /// Whether nothing temporary is left.
+    fn is_tidy(&self) -> bool {
+        parts(self.path()).is_empty()
+    }
+}
+
+fn told(output: Output) -> (Option<i32>, String) {
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+/// Temporary folders and files below a folder.
+fn parts(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let below = |path: PathBuf| match path.extension() {
+        Some(end) if end == "part" => vec![path],
+        _ => parts(&path),
+    };
+    entries.flat_map(below).collect()
+}
+
+/// Waits for something that takes moments.
+fn soon(mut is_so: impl FnMut() -> bool) -> bool {
+    let start = Instant::now();
+    while !is_so() {
+        if start.elapsed() > Duration::from_secs(20) {
+            return false;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    true
+}
+
+/// State and parent of a process, if it runs.
+fn process(id: &str) -> Option<String> {
+    let stat = fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
+    let rest = stat.rsplit_once(") ")?.1;
+    (!rest.starts_with('Z')).then(|| rest.split(' ').nth(1).unwrap_or_default().to_owned())
+}
+
+/// The child of a process that is this program too.
+fn child_of(id: u32) -> Option<String> {
+    let entries = fs::read_dir("/proc").ok()?.flatten();
+    let mut ids = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    ids.find(|child| process(child).is_some_and(|parent| parent == id.to_string()))
+}
+
+fn signal(name: &str, id: &str) {
+    assert!(Command::new("kill").args(["-s", name, id]).status().expect("kill").success());
+}
+
+/// A tool that never ends, nor does what it has started.
+const HANGS: &str = "sleep 1000 & echo $! > \"$(dirname \"$0\")/../pid\"; wait";
+
+#[test]
+fn a_tool_that_hangs_is_stopped_and_told() {
+    let place = Place::new();
+    place.verilator(HANGS);
+    let (status, said) = place.run("cosim blend --case random --timeout 1");
+    assert_eq!(status, Some(4), "{said}");
+    for part in ["verilator on sam_blend did not end within 1 s", "--timeout SECONDS"] {
+        assert!(said.contains(part), "no “{part}” in: {said}");
+    }
+    let pid = fs::read_to_string(place.path().join("pid")).expect("it was called");
+    assert!(soon(|| process(pid.trim()).is_none()), "what it has started is left");
+    assert!(place.is_tidy(), "{:?}", parts(place.path()));
+}
+
+#[test]
+fn a_tool_that_does_not_say_its_version_is_told() {
+    let place = Place::new();
+    place.tool("verilator", HANGS);
+    let (status, said) = place.run("cosim blend --timeout 1");
+    assert_eq!(status, Some(3), "{said}");
+    assert!(said.contains("verilator on --version did not end within 1 s"), "{said}");
+}
+
+#[test]
+fn tools_that_say_too_much_or_nothing_are_told() {
+    let place = Place::new();
+    for (script, expected, part) in [
+        (
+            "yes error",
+            4,
+            "verilator on sam_blend printed more than 258 MiB and was stopped; it began:\nerror",
+        ),
+        ("exit 3", 2, "verilator failed on sam_blend:\nit printed nothing (exit status: 3)"),
+        ("kill -9 $$", 2, "it printed nothing (signal: 9 (SIGKILL))"),
+        // What it should have made is not there.
+        ("exit 0", 2, "Vsam"),
+    ] {
+        place.verilator(script);
+        let (status, said) = place.run("cosim blend --case random");
+        let part = if script == "exit 0" { "cpp/V.h" } else { part };
+        assert_eq!(status, Some(expected), "{script}: {said}");
+        assert!(said.contains(part), "{script}: no “{part}” in: {said}");
+        assert!(place.is_tidy(), "{script}: {:?}", parts(place.path()));
+    }
+}
+
+#[test]
+fn signals_end_all_and_leave_nothing() {
+    for (name, status) in [("HUP", 129), ("INT", 130), ("TERM", 143)] {
+        let place = Place::new();
+        place.verilator(HANGS);
+        let (mut child, tool) = place.start("cosim blend --case random");
+        let start = Instant::now();
+        signal(name, &child.id().to_string());
+        let ended = child.wait().expect("it ends");
+        assert!(start.elapsed() < Duration::from_secs(5), "{name}: {:?}", start.elapsed());
+        let mut said = String::new();
+        child.stderr.take().expect("a pipe").read_to_string(&mut said).expect("text");
+        assert_eq!(ended.code(), Some(status), "{name}: {said}");
+        let lines: Vec<&str> = said.lines().filter(|line| !line.starts_with("building ")).collect();
+        assert!(lines.is_empty(), "{name}: {said}");
+        assert!(soon(|| process(&tool).is_none()), "{name}: the tool is left");
+        assert!(place.is_tidy(), "{name}: {:?}", parts(place.path()));
+    }
+}
+
+#[test]
+fn a_signal_that_was_ignored_stays_so() {
+    let place = Place::new();
+    place.verilator(HANGS);
+    let mut command = Command::new("nohup");
+    let wheatstone = place.wheatstone("");
+    command.arg(wheatstone.get_program()).args(["cosim", "blend", "--timeout", "3"]);
+    command.current_dir(place.path()).stdin(Stdio::null()).stdout(Stdio::null());
+    let set = wheatstone.get_envs().filter_map(|(name, value)| Some((name, value?)));
+    command.envs(set);
+    let mut child = command.stderr(Stdio::null()).spawn().expect("nohup");
+    assert!(soon(|| place.path().join("pid").exists()));
+    signal("HUP", &child.id().to_string());
+    assert_eq!(child.wait().expect("it ends").code(), Some(4), "it runs to its limit");
+}
+
+#[test]
+fn the_death_of_either_process_ends_the_other_and_the_tools() {
+    for of_parent in [true, false] {
+        let place = Place::new();
+        place.verilator(HANGS);
+        let (mut parent, tool) = place.start("cosim blend --case random");
+        let worker = child_of(parent.id()).expect("the one that works");
+        signal("KILL", &if of_parent { parent.id().to_string() } else { worker.clone() });
+        let ended = parent.wait().expect("it ends");
+        let mut said = String::new();
+        parent.stderr.take().expect("a pipe").read_to_string(&mut said).expect("text");
+        match of_parent {
+            true => assert_eq!(ended.signal(), Some(9)),
+            false => {
+                assert_eq!(ended.code(), Some(4), "{said}");
+                let part = "the run ended before its work was done (signal: 9 (SIGKILL))";
+                assert!(said.contains(part), "no “{part}” in: {said}");
+            }
+        }
+        assert!(soon(|| process(&tool).is_none()), "the tool is left");
+        assert!(soon(|| process(&worker).is_none()), "the worker is left");
+        // One that is killed cannot tidy up; the next run does.
+        assert!(!of_parent || soon(|| place.is_tidy()), "{:?}", parts(place.path()));
+    }
+}
+
+#[test]
+fn a_model_that_ends_crashes_or_hangs_does_not_pass() {
+    let place = Place::new();
+    place.shell("rm -r bin && mkdir bin");
+    let file = place.path().join("rtl/sam_blend.v");
+    let text = fs::read_to_string(&file).expect("the module");
+    let planted = r#"
+    reg wheel = 1'b0;
+    always @(posedge clk_i) if (!rst_i && pixel_valid_i) begin
+        $c("if (getenv(\"MODEL_EXITS\")) exit(0);");
+        $c("if (getenv(\"MODEL_LEAVES\")) syscall(231, 0);");
+        $c("if (getenv(\"MODEL_CRASHES\")) *static_cast<volatile int*>(nullptr) = 0;");
+        while ($c("getenv(\"MODEL_HANGS\") != nullptr")) wheel = !wheel;
+    end
+endmodule"#;
+    assert_eq!(text.matches("\nendmodule").count(), 1);
+    fs::write(&file, text.replace("\nendmodule", planted)).expect("written");
+    let line = "cosim blend --case random --beats 50 --waves never";
+    assert_eq!(place.run(line).0, Some(0), "{}", place.run(line).1);
+    let simulated = "while this was simulated: blend --case random";
+    for (variable, parts) in [
+        (
+            "MODEL_EXITS",
+            [
+                "the model calls exit(0)",
+                "(signal: 6 (SIGABRT)), while this was simulated: blend --case random",
+            ],
+        ),
+        ("MODEL_LEAVES", ["the run ended before its work was done (exit status: 0)", simulated]),
+        (
+            "MODEL_CRASHES",
+            ["the run ended before its work was done (signal: 11 (SIGSEGV))", simulated],
+        ),
+        (
+            "MODEL_HANGS",
+            ["blend --case random: the model did not come to the end of a clock", "within 2 s"],
+        ),
+    ] {
+        // It is built, so that the limit is that of the model alone.
+        let mut command = place.wheatstone(&format!("{line} --timeout 2"));
+        let (status, said) = told(command.env(variable, "1").output().expect("the program runs"));
+        assert_eq!(status, Some(4), "{variable}: {said}");
+        for part in parts {
+            assert!(said.contains(part), "{variable}: no “{part}” in: {said}");
+        }
+    }
+}
+
+#[test]
+fn every_exit_status_is_in_the_help() {
+    let place = Place::new();
+    let help = place.wheatstone("--help").output().expect("the program runs").stdout;
+    let help = String::from_utf8_lossy(&help).into_owned();
+    for status in ["0 ", "1 ", "2 ", "3 ", "4 ", "129, 130, 143"] {
+        assert!(help.contains(&format!("\n  {status}")), "no {status} in: {help}");
+    }
+}
