@@ -1,7 +1,7 @@
 //! Minimal system: what it draws for the secondary is a covered primary pixel that maps there, the
 //! nearest one, and it draws every one that it can.
 
-mod walk;
+use crate::walk;
 
 use std::collections::BTreeMap;
 use walk::{each_derived, exact, walk, Fraction};
