@@ -1,0 +1,163 @@
+//! What is damaged: files of every kind that the program reads, each with the command that reads it.
+
+use std::io::{self, Cursor};
+use std::path::Path;
+use std::process::Command;
+
+/// A kind of input.
+#[derive(Clone, Debug)]
+pub struct Kind {
+    /// Its name.
+    pub name: &'static str,
+    /// The files of a run. Those that end in what [`Kind::damaged`] says are damaged, one at a time.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// The end of the names of what is damaged; none where the command line is.
+    pub damaged: Option<&'static str>,
+    /// The command line.
+    pub line: &'static str,
+}
+
+const OBJ: &str = "# A square and a triangle\nmtllib m.mtl\no first\nv -1 -1 0 1 0 0\nv 1 -1 0\nv 1 1 0\nv -1 1 -0.5\n\
+vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nusemtl red\ng a b\ns 1\nf 1/1/1 2/2/1 3/3/1 4\nusemtl picture\nf -4//1 -3//1 -2//1\n\
+l 1 3\np 1\n";
+const MTL: &str =
+    "newmtl red\nKd 1 0.2 0.1\nKa 0 0 0\nNs 10\nd 0.5\nillum 2\nnewmtl picture\nTr 0\n\
+map_Kd -s 2 2 1 -o 0.5 0 0 t.png\nmap_d -mm 0 1 t.png\n";
+const SCENE: &str = r#"{"format": "stereo-scene/1", "width": 24, "height": 16, "pixels_per_unit": 5,
+"eye_separation": 0.6, "viewing_distance": 5, "background": [0, 0, 10],
+"vertices": [[-1, -1, 0], [1, -1, 0], [0, 1, 1]],
+"colors": [[255, 0, 0], [0, 255, 0], [0, 0, 255, 128]], "triangles": [[0, 1, 2]]}"#;
+const RIG: &str = r#"{"eye_separation": 0.6, "viewing_distance": 5, "placement": {"center": [0, 0, 0], "size": 2}}"#;
+const GRID: &str = "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n1 2 3 4\n2 3 4 5\n3 4 -9999 6\n";
+/// One pixel, blue, green, red, 24 bits.
+const BMP: &[u8] = b"BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x01\0\0\0\x01\0\0\0\x01\0\x18\0\0\0\0\0\x04\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x10\x20\x30\0";
+/// One pixel of true colour.
+const TGA: &[u8] = b"\0\0\x02\0\0\0\0\0\0\0\0\0\x01\0\x01\0\x18\0\x10\x20\x30";
+/// One pixel without loss.
+const WEBP: &[u8] =
+    b"RIFF\x1a\0\0\0WEBPVP8L\x0d\0\0\0\x2f\0\0\0\x10\x07\x10\x11\x11\x88\x88\xfe\x07\0";
+
+/// Every kind; `program` writes the packs that are damaged, in `folder`; `workspace` has the Verilog.
+pub fn all(program: &Path, workspace: &Path, folder: &Path) -> io::Result<Vec<Kind>> {
+    let mut kinds = vec![
+        scene("obj", &[("s.obj", OBJ), ("m.mtl", MTL)], ".obj", Some(("t.png", png()?))),
+        scene("mtl", &[("s.obj", OBJ), ("m.mtl", MTL)], ".mtl", Some(("t.png", png()?))),
+        scene("json", &[("s.json", SCENE)], ".json", None),
+        scene("grid", &[("s.txt", GRID)], ".txt", None),
+        scene("png grid", &[], ".png", Some(("s.png", png()?))),
+        Kind {
+            line: "rig --scene s.json --rig r.json --at 1,2 --out out",
+            ..scene("rig", &[("r.json", RIG), ("s.json", SCENE)], "r.json", None)
+        },
+    ];
+    let pictures = [
+        ("png", png()?),
+        ("jpg", jpeg()?),
+        ("bmp", BMP.into()),
+        ("tga", TGA.into()),
+        ("webp", WEBP.into()),
+    ];
+    for (end, bytes) in pictures {
+        let (name, file) = match end {
+            "png" => ("png picture", "t.png"),
+            "jpg" => ("jpeg picture", "t.jpg"),
+            "bmp" => ("bmp picture", "t.bmp"),
+            "tga" => ("tga picture", "t.tga"),
+            _ => ("webp picture", "t.webp"),
+        };
+        let library = MTL.replace("t.png", file);
+        kinds.push(scene(name, &[("s.obj", OBJ), ("m.mtl", &library)], file, Some((file, bytes))));
+    }
+    kinds.extend(packs(program, folder)?);
+    kinds.extend(OPTIONS.iter().map(|line| Kind {
+        name: "options",
+        files: vec![("s.json".into(), SCENE.into()), ("r.json".into(), RIG.into())],
+        damaged: None,
+        line,
+    }));
+    kinds.push(verilog(workspace)?);
+    Ok(kinds)
+}
+
+/// Command lines that are damaged.
+const OPTIONS: [&str; 6] = [
+    "render --scene s.json --rig r.json --size 24x16 --method direct --stereo anaglyph,wiggle --dpi 100 --out out",
+    "render --scene s.json --config paper --param filter=2 --cull back --wire --projection shear --out out",
+    "rig --scene s.json --rig r.json --at 1,2.5 --projection piecewise --json out.json",
+    "vectors sampler --seed 3 --beats 5 --config full --param subpixel_bits=6 --out out",
+    "list --json",
+    "check s.json",
+];
+
+/// A scene that is drawn.
+fn scene(
+    name: &'static str,
+    files: &[(&str, &str)],
+    damaged: &'static str,
+    picture: Option<(&str, Vec<u8>)>,
+) -> Kind {
+    let mut all: Vec<(String, Vec<u8>)> =
+        files.iter().map(|(name, text)| ((*name).into(), text.as_bytes().to_vec())).collect();
+    all.extend(picture.map(|(name, bytes)| (name.to_owned(), bytes)));
+    let line = match all[0].0.as_str() {
+        "s.obj" => "render --scene s.obj --size 24x16 --method direct --out out",
+        "s.json" => "render --scene s.json --size 24x16 --method direct --out out",
+        "s.txt" => "render --scene s.txt --size 24x16 --method direct --out out",
+        _ => "render --scene s.png --size 24x16 --method direct --out out",
+    };
+    Kind { name, files: all, damaged: Some(damaged), line }
+}
+
+fn png() -> io::Result<Vec<u8>> {
+    encoded(image::ImageFormat::Png)
+}
+
+fn jpeg() -> io::Result<Vec<u8>> {
+    encoded(image::ImageFormat::Jpeg)
+}
+
+/// A small picture.
+fn encoded(format: image::ImageFormat) -> io::Result<Vec<u8>> {
+    let picture =
+        image::RgbImage::from_fn(8, 6, |x, y| image::Rgb([x as u8 * 30, y as u8 * 40, 99]));
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, format).map_err(io::Error::other)?;
+    Ok(bytes.into_inner())
+}
+
+/// A pack as the program writes it: its manifest, and its other files.
+fn packs(program: &Path, folder: &Path) -> io::Result<[Kind; 2]> {
+    let mut command = Command::new(program);
+    command.args(["vectors", "sampler", "--beats", "8", "--out", "packs"]).current_dir(folder);
+    let output = command.output()?;
+    if !output.status.success() {
+        return Err(io::Error::other(String::from_utf8_lossy(&output.stderr).into_owned()));
+    }
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder.join("packs/sampler"))? {
+        let entry = entry?;
+        let name = format!("packs/sampler/{}", entry.file_name().to_string_lossy());
+        files.push((name, std::fs::read(entry.path())?));
+    }
+    files.sort();
+    let pack = |name, damaged| Kind {
+        name,
+        files: files.clone(),
+        damaged: Some(damaged),
+        line: "check packs",
+    };
+    Ok([pack("manifest", "manifest.json"), pack("pack", "")])
+}
+
+/// The Verilog of a unit: what Verilator makes of its ports is compared with what they should be.
+fn verilog(workspace: &Path) -> io::Result<Kind> {
+    let mut files = Vec::new();
+    for name in ["sam_sampler.v", "sam_formats.vh", "sam_formal.vh"] {
+        files.push((format!("v/{name}"), std::fs::read(workspace.join("rtl").join(name))?));
+    }
+    let line = "cosim sampler --beats 20 --rtl v";
+    Ok(Kind { name: VERILOG, files, damaged: Some("sampler.v"), line })
+}
+
+/// The kind that takes a second for each input.
+pub const VERILOG: &str = "verilog";
