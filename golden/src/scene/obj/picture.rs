@@ -140,3 +140,80 @@ fn jpeg_end(bytes: &[u8]) -> Result<(), &'static str> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::{DynamicImage, Rgba as Pixel};
+
+    /// A picture with something in every block.
+    fn picture() -> DynamicImage {
+        let pixel = |x: u32, y: u32| Pixel([(x * 5) as u8, (y * 7) as u8, (x * y) as u8, 255]);
+        DynamicImage::ImageRgba8(RgbaImage::from_fn(50, 34, pixel))
+    }
+
+    fn encoded(format: ImageFormat) -> Vec<u8> {
+        let mut bytes = Cursor::new(Vec::new());
+        let opaque = DynamicImage::ImageRgb8(picture().into_rgb8());
+        opaque.write_to(&mut bytes, format).expect("encoded");
+        bytes.into_inner()
+    }
+
+    #[test]
+    fn every_format_is_read() {
+        let expected = picture().into_rgba8();
+        for format in [ImageFormat::Png, ImageFormat::Bmp, ImageFormat::Tga, ImageFormat::WebP] {
+            let bytes = encoded(format);
+            let read = decode(&bytes, format == ImageFormat::Tga).expect("well-formed");
+            assert!(read.texels == expected && read.damage.is_none(), "{format:?}");
+        }
+        let read = decode(&encoded(ImageFormat::Jpeg), false).expect("well-formed");
+        assert_eq!((read.texels.dimensions(), read.damage), ((50, 34), None));
+    }
+
+    #[test]
+    fn no_picture_that_ends_early_is_taken_for_a_whole_one() {
+        for format in [ImageFormat::Jpeg, ImageFormat::Bmp, ImageFormat::Tga] {
+            let bytes = encoded(format);
+            for length in 0..bytes.len() {
+                let read = decode(&bytes[..length], format == ImageFormat::Tga);
+                let told = read.is_err() || read.is_ok_and(|picture| picture.damage.is_some());
+                assert!(told, "{format:?}: {length} of {}", bytes.len());
+            }
+        }
+        // What follows the pixels of these need not be there.
+        for (format, spare) in [(ImageFormat::Png, 4), (ImageFormat::WebP, 1)] {
+            let bytes = encoded(format);
+            for length in 0..bytes.len() - spare {
+                assert!(decode(&bytes[..length], false).is_err(), "{format:?}: {length}");
+            }
+        }
+    }
+
+    #[test]
+    fn most_of_a_damaged_jpeg_is_there() {
+        let whole = encoded(ImageFormat::Jpeg);
+        let cut = decode(&whole[..whole.len() * 3 / 4], false).expect("most of it");
+        assert_eq!(cut.texels.dimensions(), (50, 34));
+        // What follows the end does not matter.
+        let longer = [&whole[..], b"\0\xff\xd8"].concat();
+        assert_eq!(decode(&longer, false).expect("whole").damage, None);
+        let without_end = decode(&whole[..whole.len() - 2], false).expect("all of it");
+        assert_eq!(without_end.damage.as_deref(), Some("it ends early"));
+    }
+
+    #[test]
+    fn other_and_larger_files_are_refused() {
+        for bytes in [&b""[..], b"x", b"GIF89a\x01\0\x01\0\0\0\0", b"DDS |\0\0\0"] {
+            let error = decode(bytes, false).err();
+            assert_eq!(error.as_deref(), Some("expected PNG, JPEG, BMP, TGA or WebP"), "{bytes:?}");
+        }
+        for format in [ImageFormat::Png, ImageFormat::Jpeg] {
+            let wide = DynamicImage::ImageRgb8(RgbImage::new(TEXTURE_LIMIT + 1, 1));
+            let mut bytes = Cursor::new(Vec::new());
+            wide.write_to(&mut bytes, format).expect("encoded");
+            let error = decode(&bytes.into_inner(), false).err().expect("too wide");
+            assert_eq!(error, "expected at most 4096 pixels a side");
+        }
+    }
+}
