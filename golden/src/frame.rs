@@ -179,15 +179,33 @@ impl Frames {
         }
     }
 
-    /// Position of a pixel in an eye's frame; none outside the frame or the scissor.
+    /// Position of a pixel in an eye's frame; none outside the frame.
     #[inline]
     fn index(&self, eye: Eye, x: Coordinate, y: Coordinate) -> Option<usize> {
-        let [x, y] = [x, y].map(|n| n.raw());
-        let inside = self.windows[eye as usize].contains(x, y);
-        inside.then(|| self.eyes[eye as usize].index(x, y)).flatten()
+        self.eyes[eye as usize].index(x.raw(), y.raw())
     }
 
-    /// What a read returns; 0 outside the display and the scissor.
+    /// The part of an eye's frame that takes pixels: first column and the one behind the last, first row
+    /// and the one behind the last.
+    pub fn open(&self, eye: Eye) -> [u32; 4] {
+        let Frame { width, height, .. } = self.eyes[eye as usize];
+        let Window { first, end, swap } = self.windows[eye as usize];
+        // No column is beyond 32 bits once it is cut to the frame.
+        let cut = |n: i64, size: u32| n.clamp(0, size.into()) as u32;
+        if swap {
+            [0, width, cut(first, height), cut(end, height)]
+        } else {
+            [cut(first, width), cut(end, width), 0, height]
+        }
+    }
+
+    /// Whether blended pixels have passed the depth test already.
+    pub fn is_tested(&self) -> bool {
+        self.tested
+    }
+
+    /// What a read returns: what is in the frame, beside the scissor too, where nothing is ever drawn;
+    /// 0 outside the frame.
     pub fn fetch(&self, eye: Eye, x: Coordinate, y: Coordinate) -> Response {
         let frame = &self.eyes[eye as usize];
         match self.index(eye, x, y) {
@@ -203,6 +221,9 @@ impl Frames {
     #[inline]
     pub fn apply(&mut self, pixel: &Pixel) {
         self.written[pixel.eye as usize] += 1;
+        if !self.windows[pixel.eye as usize].contains(pixel.x.raw(), pixel.y.raw()) {
+            return;
+        }
         let Some(index) = self.index(pixel.eye, pixel.x, pixel.y) else { return };
         let frame = &mut self.eyes[pixel.eye as usize];
         let depth = pixel.depth.raw() as u32;
