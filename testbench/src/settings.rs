@@ -42,6 +42,9 @@ pub const RUN_PARAMETERS: [Parameter; 8] = [
     ),
 ];
 
+/// Values of `specular_threshold`, in the order of the command line.
+const THRESHOLDS: [u8; 8] = [2, 0, 1, 4, 8, 16, 32, 64];
+
 const fn run(name: &'static str, values: &'static [&'static str], help: &'static str) -> Parameter {
     Parameter { name, verilog: "", values, help }
 }
@@ -139,6 +142,29 @@ impl Settings {
         Ok(settings)
     }
 
+    /// The choices of a run that have a name and a value on the command line, but for the latency, in the order
+    /// of [`RUN_PARAMETERS`].
+    pub fn choices(&self) -> Vec<(&'static str, &'static str)> {
+        let options = &self.options;
+        let index = |name: &str| match name {
+            "cost_rule" => usize::from(!options.cost_rule),
+            "specular" => match options.specular {
+                Specular::Exception => 0,
+                Specular::Approximation => 1,
+                Specular::Integrated => 2,
+            },
+            "specular_threshold" => {
+                THRESHOLDS.iter().position(|&n| n == self.specular_threshold).unwrap_or_default()
+            }
+            "sampling" => options.sampling as usize,
+            "display" => options.arrangement as usize,
+            "displays" => usize::from(options.single),
+            _ => usize::from(self.lookup == Lookup::Bilinear),
+        };
+        let all = RUN_PARAMETERS.iter().filter(|p| p.name != "latency");
+        all.map(|p| (p.name, p.values[index(p.name)])).collect()
+    }
+
     fn choose(&mut self, name: &str, index: usize) {
         let options = &mut self.options;
         match name {
@@ -148,7 +174,7 @@ impl Settings {
                     [Specular::Exception, Specular::Approximation, Specular::Integrated][index];
             }
             "specular_threshold" => {
-                self.specular_threshold = [2, 0, 1, 4, 8, 16, 32, 64][index];
+                self.specular_threshold = THRESHOLDS[index];
             }
             "sampling" => {
                 options.sampling =
@@ -195,6 +221,10 @@ mod tests {
                 let settings = Settings::new("full", &text);
                 let clash = (parameter.name, *value) == ("integrated", "off");
                 assert!(settings.is_ok() || clash, "{text:?}");
+                let chosen =
+                    settings.is_ok_and(|s| s.choices().contains(&(parameter.name, *value)));
+                let run = RUN_PARAMETERS.contains(parameter) && parameter.name != "latency";
+                assert_eq!(chosen, run, "{text:?}");
             }
         }
         for parameter in &PARAMETERS {

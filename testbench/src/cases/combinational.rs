@@ -193,9 +193,13 @@ fn give_slot(case: &mut Case, slot: &Slot, single: bool) {
 }
 
 pub fn redirect_case(config: &Config, seed: u64, beats: usize) -> Case {
+    redirect_slots(config, seed, beats, seed.is_multiple_of(3))
+}
+
+/// Random slots, for one display or two.
+pub fn redirect_slots(config: &Config, seed: u64, beats: usize, single: bool) -> Case {
     let f = &Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
-    let single = seed.is_multiple_of(3);
     let name = if single { "random, one display" } else { "random" };
     let mut case = Case::empty(Target::Redirect, config, name);
     case.statics = vec![single.into()];

@@ -80,6 +80,31 @@ impl XRun {
 }
 
 pub fn x(config: &Config, seed: u64, beats: usize) -> Case {
+    x_run(config, seed, beats).case
+}
+
+/// The case of a pack: random beats, then starts on either side of where `near` and `inside` change.
+pub fn x_for_pack(config: &Config, seed: u64, beats: usize) -> Case {
+    let f = &Formats::new(config);
+    let mut run = x_run(config, seed, beats);
+    let width = (run.case.statics[0] as i64) << FRACTION_BITS;
+    for step in [SCALE_MIN, SCALE_MIN + 1, 5_461, 8_192, 12_345, SCALE_ONE - 1, SCALE_ONE] {
+        let half = (SCALE_ONE + step) / 2;
+        for start in [-SCALE_ONE, -1, 0, half, SCALE_ONE / 2, width - 1, width] {
+            for aside in -1..=1 {
+                let start = SecondaryX::wrap(start + aside, f);
+                let (step, row) = (Scale::new(step, f), SecondaryX::new(-1, f));
+                for op in [Op::Load, Op::Step, Op::Row] {
+                    let last = op == Op::Row;
+                    run.beat(&XBeat { op, save: op == Op::Load, last, start, step, row });
+                }
+            }
+        }
+    }
+    run.case
+}
+
+fn x_run(config: &Config, seed: u64, beats: usize) -> XRun {
     let f = &Formats::new(config);
     let rng = &mut Rng::with_seed(seed);
     let width = rng.u32(1..=f.max_size);
@@ -95,7 +120,7 @@ pub fn x(config: &Config, seed: u64, beats: usize) -> Case {
         };
         run.beat(&beat);
     }
-    run.case
+    run
 }
 
 /// Every ratio up to 29 and past it from many fractions, and both ends of the accumulator.

@@ -81,6 +81,14 @@ impl Case {
         self.outputs[0].push(beat);
     }
 
+    /// Adds the beats of another case of a target without history from pixel to pixel.
+    fn append(&mut self, other: Case) {
+        let tables = self.inputs.iter_mut().zip(other.inputs);
+        for (table, more) in tables.chain(self.outputs.iter_mut().zip(other.outputs)) {
+            (0..more.len()).for_each(|n| table.push_row(more.row(n)));
+        }
+    }
+
     /// The answers that the golden model got to a system's reads.
     pub fn responses(&self) -> Option<&Table> {
         let interface = self.interface();
@@ -115,6 +123,38 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
         Target::Minimal | Target::Hybrid | Target::Stereo => {
             systems::random(target, config, seed, beats)
         }
+    }
+}
+
+/// Cases of the packs of a target, each with what its folder's name has behind the target's: about `beats`
+/// random beats in each, and with them what random beats rarely are. Static inputs that say which of two ways a target works have
+/// a pack for either.
+pub fn for_packs(
+    target: Target,
+    config: &Config,
+    seed: u64,
+    beats: usize,
+) -> Vec<(&'static str, Case)> {
+    let one = |case| vec![("", case)];
+    match target {
+        Target::XInterpolator => one(interpolators::x_for_pack(config, seed, beats)),
+        Target::Sampler => one(pixels::sampler_for_pack(config, seed, beats)),
+        Target::Filter => one(pixels::filter_for_pack(config, seed, beats)),
+        Target::Redirect => [("", false), ("-single", true)]
+            .map(|(suffix, single)| {
+                (suffix, combinational::redirect_slots(config, seed, beats, single))
+            })
+            .to_vec(),
+        Target::Traversal | Target::Primary => one(primary::for_pack(target, config, seed, beats)),
+        Target::Mono => [("", Eye::Left), ("-right", Eye::Right)]
+            .map(|(suffix, eye)| (suffix, primary::mono_for_pack(config, seed, beats, eye)))
+            .to_vec(),
+        Target::Minimal | Target::Hybrid | Target::Stereo => [("", false), ("-single", true)]
+            .map(|(suffix, single)| {
+                (suffix, systems::for_pack(target, config, seed, beats, single))
+            })
+            .to_vec(),
+        _ => one(random(target, config, seed, beats)),
     }
 }
 

@@ -8,6 +8,31 @@ use wheatstone_golden::pipeline::filter::{Filter, FilterBeat};
 use wheatstone_golden::pipeline::sampler::{Sampler, SamplerBeat};
 use wheatstone_golden::targets::Target;
 
+/// The case of a pack: random pixels, then every pixel of up to four beats.
+pub fn sampler_for_pack(config: &Config, seed: u64, beats: usize) -> Case {
+    let mut case = sampler(config, seed, beats);
+    case.append(sampler_corners(config));
+    case
+}
+
+/// The case of a pack: random pixels, then pixels of every count, past the limit too, with channels that are full
+/// (the sum of two or three terms may exceed 255), nearly full, half full and nearly empty.
+pub fn filter_for_pack(config: &Config, seed: u64, beats: usize) -> Case {
+    let mut case = filter(config, seed, beats);
+    let mut model = Filter::new(config);
+    for count in 0..=33 {
+        for n in 0..count.max(1) {
+            let (first, end, include) = (n == 0, n + 1 == count.max(1), count > 0);
+            let beat = FilterBeat { first, end, include, rgba: Rgba([255, 254, 128, 1]) };
+            case.give(&beat);
+            if let Some(pixel) = model.step(&beat) {
+                case.expect(&pixel);
+            }
+        }
+    }
+    case
+}
+
 /// Calls `beat(n, first, end)` for random runs of beats that share a pixel, `beats` in all.
 fn runs(rng: &mut Rng, beats: usize, mut beat: impl FnMut(&mut Rng, bool, bool)) {
     let mut left = beats;

@@ -62,6 +62,21 @@ fn of(target: Target, config: &Config, name: &str, width: u32, records: &[(Walk,
 
 /// Random polygons, and between them records without sense: the ends of rows may be anywhere.
 pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case {
+    let (width, records) = random_records(config, seed, beats);
+    of(target, config, "random polygons", width, &records)
+}
+
+/// The case of a pack: random polygons, then the corners of the number range, but for parts of very many rows.
+pub fn for_pack(target: Target, config: &Config, seed: u64, beats: usize) -> Case {
+    let f = &Formats::new(config);
+    let (width, mut records) = random_records(config, seed, beats);
+    records.extend(corner_records(f));
+    records.extend(barely_whole(f));
+    of(target, config, "random polygons", width, &records)
+}
+
+/// Records of random polygons, and the width of their view.
+fn random_records(config: &Config, seed: u64, beats: usize) -> (u32, Vec<(Walk, Planes)>) {
     let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
     let (job, mut tape) = systems::random_tape(config, seed, beats, false);
     let recording = tape.take();
@@ -73,7 +88,7 @@ pub fn random(target: Target, config: &Config, seed: u64, beats: usize) -> Case 
             all.push(senseless(rng, walks, planes, &f));
         }
     }
-    of(target, config, "random polygons", job.width, &all)
+    (job.width, all)
 }
 
 /// A record whose every register is that of some record in the tables, or anything; small enough that
@@ -104,6 +119,27 @@ fn mixed<B: Beat>(rng: &mut Rng, table: &Table, f: &Formats) -> B {
 /// parts of as many rows as there can be.
 pub fn corners(target: Target, config: &Config) -> Case {
     let f = &Formats::new(config);
+    let mut records = corner_records(f);
+    // Columns of pixels: every bit of the number of rows is 1 in one of them, and 0 in another.
+    let most = i64::from(f.max_size) - 1;
+    for rows in [most, most / 2 + 1, 0x555 & most, 0x2aa & most] {
+        let walk = Walk {
+            rows: Coordinate::new(rows, f),
+            x: PixelX::new(9, f),
+            left: PixelX::new(9, f),
+            right: PixelX::new(9, f),
+            y_step: DisplayStep::new(1, f),
+            ..Walk::default()
+        };
+        records.push((walk, Planes::default()));
+    }
+    records.extend(barely_whole(f));
+    let name = "flat and steep edges, both ends of the columns, many rows, barely whole planes";
+    of(target, config, name, 6, &records)
+}
+
+/// Flat and vertical edges, rows of one pixel, both ends of the columns.
+fn corner_records(f: &Formats) -> Vec<(Walk, Planes)> {
     let mut records = Vec::new();
     let (leftmost, end) = (-(1 << (PixelX::bits(f) - 1)), (1 << (PixelX::bits(f) - 1)));
     for creep in [false, true] {
@@ -169,22 +205,7 @@ pub fn corners(target: Target, config: &Config) -> Case {
             }
         }
     }
-    // Columns of pixels: every bit of the number of rows is 1 in one of them, and 0 in another.
-    let most = i64::from(f.max_size) - 1;
-    for rows in [most, most / 2 + 1, 0x555 & most, 0x2aa & most] {
-        let walk = Walk {
-            rows: Coordinate::new(rows, f),
-            x: PixelX::new(9, f),
-            left: PixelX::new(9, f),
-            right: PixelX::new(9, f),
-            y_step: DisplayStep::new(1, f),
-            ..Walk::default()
-        };
-        records.push((walk, Planes::default()));
-    }
-    records.extend(barely_whole(f));
-    let name = "flat and steep edges, both ends of the columns, many rows, barely whole planes";
-    of(target, config, name, 6, &records)
+    records
 }
 
 /// Planes that are a whole number after a step and after a row, in which one bit of the fraction was 1 before:
@@ -292,6 +313,27 @@ pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
     let polygons = for_one_eye(polygons, eye);
     let options = systems::options(rng, config);
     monocular(&systems::job(config, options, size, &polygons), eye, "random polygons")
+}
+
+/// The case of a pack for an eye: random polygons, then some on top of each other, then planes that are barely
+/// whole numbers.
+pub fn mono_for_pack(config: &Config, seed: u64, beats: usize, eye: Eye) -> Case {
+    let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
+    let size = [rng.u32(24..90), rng.u32(16..70)];
+    let polygons = systems::random_polygons(rng.u64(..), f, size, (beats / 150).max(2) as u32);
+    let crowd = systems::crowd(rng.u64(..), f, [12, 8], 48);
+    let mut all = Vec::new();
+    let nothing = systems::job(config, systems::options(rng, config), size, &[]);
+    for polygons in [polygons, crowd] {
+        let triangles = polygons.iter().flat_map(Polygon::fan).collect();
+        let triangles = for_one_eye(triangles, eye);
+        let job = Job { polygons: &triangles, ..nothing.clone() };
+        let mut tape = Tape::new(&job, false, false);
+        job.run(false, tape.sink());
+        all.extend(records(&tape.take(), config));
+    }
+    all.extend(barely_whole(&f));
+    drawn(&nothing, "random polygons", eye, &all)
 }
 
 /// Large views, each for one eye.

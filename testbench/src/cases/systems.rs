@@ -331,6 +331,106 @@ pub fn directed(target: Target, config: &Config) -> Vec<Case> {
 /// Place of `error_clear` among the static inputs of a system.
 const ERROR_CLEAR: usize = 3;
 
+/// The case of a pack: everything that a system does with polygons and with what are none, on two displays or
+/// on one, there with the error flag held clear. After beats that no polygon owns come polygons every other one of which is void, then every
+/// mode, ratio and edge sign, then crowds and random polygons in turn, about `beats` beats of them, each of
+/// these with other choices of setup.
+pub fn for_pack(target: Target, config: &Config, seed: u64, beats: usize, single: bool) -> Case {
+    let f = Formats::new(config);
+    let rng = &mut Rng::with_seed(seed);
+    let minimal = target == Target::Minimal;
+    let height = rng.u32(24..60);
+    // A display that has room for the views in every arrangement.
+    let size = [rng.u32(height + 1..2 * height), height];
+    let chosen = |options: Options| Options { single, ..options };
+    let largest = chosen(Options { arrangement: Arrangement::AboveBelow, ..Options::new(config) });
+    let nothing = job(config, largest, size, &[]);
+    let mut tape = Tape::new(&nothing, minimal, false);
+
+    if target != Target::Stereo {
+        let mask = Mask::new(1, &f);
+        let stray = PrimaryBeat { op: Op::Step, mask, centre: true, ..Default::default() };
+        tape.sink().beat(&stray);
+        tape.sink().beat(&PrimaryBeat { op: Op::Row, last: true, ..stray });
+    }
+    let derived = chosen(Options { cost_rule: false, ..Options::new(config) });
+    let ways = if target == Target::Stereo { 11 } else { 12 };
+    let polygons = at_depths(16_000_000, spoilable(minimal, 2 * ways, &f));
+    let mut spoiler = Spoiler { sink: tape.sink(), formats: f, polygon: 0, ways };
+    job(config, derived, size, &polygons).run(minimal, &mut spoiler);
+
+    let white = [0.6, 2.4, 7.0, 13.0, 27.0].map(|ratio| {
+        let mut polygon = stretched(Eye::Left, ratio, HEIGHTS[1], false, &f);
+        polygon.vertices.iter_mut().for_each(|vertex| vertex.colour = [Rgba([255; 4]); 2]);
+        polygon
+    });
+    let polygons = at_depths(15_000_000, kinds(&f).into_iter().chain(white));
+    for (sampling, part) in [Sampling::Automatic, Sampling::Average].into_iter().zip([0, 1]) {
+        let some: Vec<Polygon> = polygons.iter().skip(part).step_by(2).cloned().collect();
+        job(config, Options { sampling, ..derived }, size, &some).run(minimal, tape.sink());
+    }
+
+    let mut drawn = 0;
+    for batch in 0..beats {
+        let mut polygons = match batch % 3 {
+            1 => crowd(rng.u64(..), f, [size[0].min(16), size[1].min(12)], 48),
+            _ => random_polygons(rng.u64(..), f, size, 8),
+        };
+        if config.tilt {
+            polygons.iter_mut().for_each(|polygon| tilt(polygon, rng));
+        }
+        let options = chosen(options(rng, config));
+        drawn += job(config, options, size, &polygons).run(minimal, tape.sink()).beats();
+        if drawn >= beats as u64 {
+            break;
+        }
+    }
+    let mut case = whole(target, &nothing, "random polygons, void ones and strays", tape);
+    case.probes.clear();
+    if single {
+        // The flag may be held clear.
+        case.statics[ERROR_CLEAR] = 1;
+        case.flags = vec![0];
+    }
+    case
+}
+
+/// Gives each polygon another depth, nearer than those before it: where they are in one place, all are seen.
+fn at_depths(first: u32, polygons: impl IntoIterator<Item = Polygon>) -> Vec<Polygon> {
+    let nearer = |(n, mut polygon): (u32, Polygon)| {
+        polygon.vertices.iter_mut().for_each(|vertex| vertex.depth = first - 1_000 * n);
+        Polygon { id: n, ..polygon }
+    };
+    (0..).zip(polygons).map(nearer).collect()
+}
+
+/// `times` each: polygons derived for either eye, one with more edges than the primary pipeline has, for one eye
+/// (the minimal system has none to lend), and a triangle for the other. Each draws pixels in some rows, in
+/// one part, so that every second one is spoilt.
+fn spoilable(minimal: bool, times: usize, f: &Formats) -> Vec<Polygon> {
+    const TRIANGLE: &[[i32; 2]] = &[[2, 1], [9, 1], [2, 8]];
+    const HEXAGON: &[[i32; 2]] = &[[4, 1], [8, 1], [10, 4], [8, 7], [4, 7], [2, 4]];
+    let polygon = |corners: &[[i32; 2]], eyes, wider: Option<Eye>| {
+        let vertex = |(n, &[x, y]): (u8, &[i32; 2])| {
+            let mut xs = [x << f.subpixel_bits; 2];
+            if let Some(eye) = wider {
+                xs[eye as usize] += (x - 2) << (f.subpixel_bits - 1);
+            }
+            let colour = [Rgba([40 * n, 200, 90, 255]); 2];
+            Vertex { x: xs, y: [y << f.subpixel_bits; 2], colour, ..Vertex::default() }
+        };
+        Polygon { vertices: (0..).zip(corners).map(vertex).collect(), eyes, ..Polygon::default() }
+    };
+    let many = if minimal { TRIANGLE } else { HEXAGON };
+    let kinds = [
+        polygon(TRIANGLE, Eyes::Both, Some(Eye::Left)),
+        polygon(TRIANGLE, Eyes::Both, Some(Eye::Right)),
+        polygon(many, Eyes::One(Eye::Left), None),
+        polygon(TRIANGLE, Eyes::One(Eye::Right), None),
+    ];
+    kinds.into_iter().flat_map(|kind| vec![kind; times]).collect()
+}
+
 /// Arrangements in which a view's columns and rows run either way, along either side of the display.
 const PLACES: [(&str, Arrangement); 3] = [
     ("", Arrangement::Normal),
@@ -370,27 +470,32 @@ pub fn largest(config: &Config) -> Vec<Large> {
 /// Polygons of every mode and, where a secondary is derived, every class of the mapping ratio with every
 /// triple of edge signs.
 fn every_kind(config: &Config) -> Case {
-    let f = Formats::new(config);
-    let mut polygons = Vec::new();
-    for eye in Eye::BOTH {
-        for stretch in [1.0, 1.6, 5.0, 20.0] {
-            for heights in HEIGHTS {
-                let both = [false, true].map(|turn| stretched(eye, stretch, heights, turn, &f));
-                polygons.extend(both);
-            }
-        }
-        let alone = stretched(eye, 1.6, HEIGHTS[0], false, &f);
-        polygons.push(Polygon { eyes: Eyes::One(eye), ..alone });
-    }
-    for (id, polygon) in (0..).zip(&mut polygons) {
-        polygon.id = id;
-    }
+    let polygons = kinds(&Formats::new(config));
     let job =
         job(config, Options { cost_rule: false, ..Options::new(config) }, [200, 8], &polygons);
     let mut tape = Tape::new(&job, false, false);
     job.run(false, tape.sink());
     let name = "every mode, ratio and edge sign";
     Case { all_stalls: true, ..whole(Target::Hybrid, &job, name, tape) }
+}
+
+/// Its polygons.
+fn kinds(f: &Formats) -> Vec<Polygon> {
+    let mut polygons = Vec::new();
+    for eye in Eye::BOTH {
+        for stretch in [1.0, 1.6, 5.0, 20.0] {
+            for heights in HEIGHTS {
+                let both = [false, true].map(|turn| stretched(eye, stretch, heights, turn, f));
+                polygons.extend(both);
+            }
+        }
+        let alone = stretched(eye, 1.6, HEIGHTS[0], false, f);
+        polygons.push(Polygon { eyes: Eyes::One(eye), ..alone });
+    }
+    for (id, polygon) in (0..).zip(&mut polygons) {
+        polygon.id = id;
+    }
+    polygons
 }
 
 /// Heights of three corners in half pixels: in every order, two of them equal or none.

@@ -14,7 +14,7 @@ pub use failure::{Failure, Location};
 pub(crate) use report::counted;
 pub use report::{drawn_line, json, junit, table};
 pub use run::{model_probes, run_case, run_scene, MemoryFault, Ran, SceneRan, Setting};
-pub use waves::{record_waves, scene_head, Focus, Waves as WaveFile};
+pub use waves::{record_waves, scene_head, Focus, Head, Waves as WaveFile};
 
 use crate::cases::{self, Case};
 use crate::settings::Settings;

@@ -10,7 +10,8 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::{Frames, NO_ID};
-use wheatstone_golden::primary::Primary;
+use wheatstone_golden::pipeline::{Edges, Planes, PrimaryBeat, Setup, Walk};
+use wheatstone_golden::primary::{Primary, Sink};
 use wheatstone_golden::record::{Recording, Tape};
 use wheatstone_golden::stereo::{pieces, Job as Scene};
 use wheatstone_golden::targets::Target;
@@ -49,6 +50,8 @@ struct Part {
     recording: Recording,
     /// Frame buffers before and after.
     frames: [Frames; 2],
+    /// Pieces of polygons in it.
+    pieces: usize,
 }
 
 /// Records the polygons of a scene from the first for which `wanted` holds to the last, or until
@@ -58,13 +61,14 @@ fn part(job: &Scene, minimal: bool, wanted: impl Fn(u32) -> bool, beats: usize) 
     let mut primary = Primary::new(job.planner(minimal), job.textures, job.lookup);
     let last =
         pieces(job.polygons).enumerate().filter(|(_, p)| wanted(p.id)).map(|(n, _)| n).last()?;
-    let mut before = None;
+    let (mut before, mut drawn) = (None, 0);
     for (n, polygon) in pieces(job.polygons).enumerate().take(last + 1) {
         if before.is_none() && wanted(polygon.id) {
             tape.take();
             before = Some(tape.frames().clone());
         }
         primary.draw(&polygon, tape.sink());
+        drawn += usize::from(before.is_some());
         if before.is_some() && tape.len() >= beats && n < last {
             break;
         }
@@ -76,7 +80,11 @@ fn part(job: &Scene, minimal: bool, wanted: impl Fn(u32) -> bool, beats: usize) 
     let recording = tape.take();
     let after = tape.frames().clone();
     let is_empty = recording.streams["beat"].is_empty();
-    before.filter(|_| !is_empty).map(|before| Part { recording, frames: [before, after] })
+    before.filter(|_| !is_empty).map(|before| Part {
+        recording,
+        frames: [before, after],
+        pieces: drawn,
+    })
 }
 
 /// The case of a target in a part of a scene.
@@ -89,11 +97,37 @@ fn case_of(target: Target, job: &Scene, name: &str, part: &Part) -> Case {
     case
 }
 
+/// The beginning of a scene.
+pub struct Head {
+    /// The case of a target in it.
+    pub case: Case,
+    /// Its polygons, and those of the whole scene, in the order of drawing; a concave one is several.
+    pub polygons: [u64; 2],
+    /// Beats of the primary pipeline for them, and for the whole scene.
+    pub beats: [u64; 2],
+}
+
+/// Counts beats and does nothing with them.
+struct Counter;
+
+impl Sink for Counter {
+    fn polygon(&mut self, _: u32) {}
+    fn walk(&mut self, _: &Walk, _: &Planes) {}
+    fn records(&mut self, _: &Setup, _: &Edges) {}
+    fn beat(&mut self, _: &PrimaryBeat) {}
+}
+
 /// The beginning of a scene, about `beats` beats, as a case of a target.
-pub fn scene_head(target: Target, job: &Scene, name: &str, beats: usize) -> Option<Case> {
+pub fn scene_head(target: Target, job: &Scene, name: &str, beats: usize) -> Option<Head> {
     let job = &target.job(job);
-    let part = part(job, target == Target::Minimal, |_| true, beats)?;
-    Some(case_of(target, job, name, &part))
+    let minimal = target == Target::Minimal;
+    let part = part(job, minimal, |_| true, beats)?;
+    let beats = part.recording.streams["beat"].len() as u64;
+    Some(Head {
+        case: case_of(target, job, name, &part),
+        polygons: [part.pieces, pieces(job.polygons).count()].map(|n| n as u64),
+        beats: [beats, job.run(minimal, &mut Counter).beats()],
+    })
 }
 
 /// Writes waveforms of a target; none if the scene has nothing at the focus.
@@ -166,7 +200,7 @@ fn focused(
     let job = &target.job(job);
     let minimal = target == Target::Minimal;
     let id = match focus {
-        Focus::Start => return Some((scene_head(target, job, "scene", HEAD)?, None)),
+        Focus::Start => return Some((scene_head(target, job, "scene", HEAD)?.case, None)),
         Focus::Polygon(id) => id,
         Focus::Pixel(eye, x, y) => {
             let (frames, _) = job.derived(minimal);
