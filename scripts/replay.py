@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Replays vector packs in cocotb on Icarus Verilog: Python alone, no Rust and no bench in Verilog.
+"""Replays vector packs in cocotb on Icarus Verilog: driven from Python, without the bench in Verilog.
 
-    python scripts/replay.py PACK... [--rtl rtl] [--stall 0]
+    python scripts/replay.py PACK... [--rtl rtl] [--stall 0] [--wheatstone PROGRAM | --checked]
 
-A pack is a folder that `wheatstone vectors` wrote; docs/vectors.md says what is in it. Every input beat
-is offered until it is taken, every output beat is compared in every bit, on clocks chosen at random.
-Prints the CRC of every output stream and PASS or FAIL; exit status 0 if all packs pass, 1 if not, 2 if a
+A pack is a folder that `wheatstone vectors` wrote; docs/vectors.md says what is in it. It may come from
+anybody: `wheatstone check --copy` checks it and copies it, and the copy is replayed. With --checked the
+pack is replayed as it is, for one that you have made or checked yourself. Every input beat is offered
+until it is taken, every output beat is compared in every bit, on clocks chosen at random. Prints the CRC of every output stream and PASS or FAIL; exit status 0 if all packs pass, 1 if not, 2 if a
 pack or the Verilog cannot be read, 3 if a tool is missing.
 """
 
@@ -42,6 +43,29 @@ QUIET = 64  # clocks after the last beat, on which none may come
 HANGS = 2_000  # clocks without a beat
 SHOWN = 10  # differences
 MANY = 1_000  # differences: the module may never end
+
+
+def program(named):
+    """The program that checks packs: the one that was named, or built beside this script, or installed."""
+    here = Path(__file__).resolve().parent.parent / "target"
+    built = [path for kind in ("release", "debug") if (path := here / kind / "wheatstone").is_file()]
+    # The one built last belongs to the sources.
+    built.sort(key=lambda path: path.stat().st_mtime)
+    found = shutil.which(named or (built[-1] if built else "wheatstone"))
+    if not found:
+        what = f"{named}: no such program" if named else "the program wheatstone, which checks packs, is not built"
+        stop(MISSING_TOOL, f"{what}; run cargo build, or name it with --wheatstone PROGRAM")
+    return found
+
+
+def checked(wheatstone, pack, rtl, copy):
+    """Copies a pack that the program finds sound; Verilog that it was not made for may be tried."""
+    command = [wheatstone, "check", "--copy", copy, "--rtl", rtl, "--", pack]
+    said = subprocess.run(command, capture_output=True, text=True, errors="replace")
+    if said.returncode not in (0, 1):
+        sys.stderr.write(said.stderr)
+        sys.exit(BAD_INPUT)
+    return copy
 
 
 def need(entries, *keys):
@@ -180,7 +204,7 @@ async def replay(dut):
     assert not faults
 
 
-def simulate(pack, manifest, sources, stall):
+def simulate(pack, manifest, rtl, sources, stall):
     """Compiles the pack's module and runs the test above in it; returns whether it passed."""
     with tempfile.TemporaryDirectory() as build:
         common = {"hdl_toplevel": manifest["module"], "build_dir": build}
@@ -189,7 +213,7 @@ def simulate(pack, manifest, sources, stall):
         try:
             runner.build(
                 sources=sources,
-                includes=[pack],
+                includes=[rtl],
                 parameters={p["name"]: p["value"] for p in manifest["parameters"]},
                 build_args=["-g2005"],
                 timescale=("1ns", "1ps"),
@@ -224,14 +248,25 @@ def main():
     parser.add_argument("packs", nargs="+", type=Path, metavar="PACK")
     parser.add_argument("--rtl", type=Path, default=Path("rtl"), help="folder of the Verilog")
     parser.add_argument("--stall", type=int, default=1, help="0: offer and take on every clock")
+    trust = parser.add_mutually_exclusive_group()
+    trust.add_argument("--wheatstone", metavar="PROGRAM", help="program that checks the packs")
+    trust.add_argument("--checked", action="store_true", help="replay the packs as they are")
     args = parser.parse_args()
     if not shutil.which("iverilog"):
         stop(MISSING_TOOL, "iverilog is not installed; run scripts/setup")
-    sources = sorted(args.rtl.resolve().glob("*.v"))
+    rtl = args.rtl.resolve()
+    sources = sorted(rtl.glob("*.v"))
     if not sources:
         stop(BAD_INPUT, f"{args.rtl}: no Verilog there; name its folder with --rtl DIR")
-    packs = [(pack.resolve(), read(pack)) for pack in args.packs]
-    passed = [simulate(pack, manifest, sources, args.stall) for pack, manifest in packs]
+    wheatstone = None if args.checked else program(args.wheatstone)
+    with tempfile.TemporaryDirectory() as copies:
+        packs = []
+        for number, pack in enumerate(args.packs):
+            pack = pack.resolve()
+            if wheatstone:
+                pack = checked(wheatstone, pack, rtl, Path(copies) / str(number))
+            packs.append((pack, read(pack)))
+        passed = [simulate(pack, manifest, rtl, sources, args.stall) for pack, manifest in packs]
     sys.exit(0 if all(passed) else 1)
 
 

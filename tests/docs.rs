@@ -162,7 +162,7 @@ fn diagrams_name_the_registers_of_the_verilog() {
 fn the_page_of_vectors_explains_every_field_of_a_manifest() {
     let folder = tempfile::tempdir().unwrap();
     let case = cases::random(Target::Hybrid, &Config::DEFAULT, 1, 50);
-    let info = pack::write(&case, 1, "0", folder.path()).unwrap();
+    let info = pack::write(&case, &pack::Origin::random(1), "0", folder.path()).unwrap();
     let text = fs::read_to_string(info.folder.join(pack::MANIFEST)).unwrap();
     let page = read("docs/vectors.md");
     fn keys(value: &serde_json::Value, all: &mut BTreeSet<String>) {

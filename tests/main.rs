@@ -22,6 +22,8 @@ mod mono;
 mod mutation;
 mod opengl;
 mod p_buffer;
+mod pack_rules;
+mod packs_untrusted;
 mod picture;
 mod planted_bugs;
 mod primary;

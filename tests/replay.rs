@@ -5,7 +5,7 @@ use std::process::Command;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
 use wheatstone_testbench::cases;
-use wheatstone_testbench::pack::{self, Checked};
+use wheatstone_testbench::pack::{self, Checked, Origin};
 use wheatstone_testbench::replay::{Replayed, Replayer, Way};
 use wheatstone_testbench::synth::Synthesiser;
 use wheatstone_testbench::tools::COCOTB;
@@ -15,7 +15,8 @@ use wheatstone_tests::*;
 fn pack(target: Target, config: &Config, beats: usize, out: &Path) -> Checked {
     let case = cases::random(target, config, 5, beats);
     let hash = pack::rtl_hash(&rtl(), target.module()).expect("the Verilog");
-    let written = pack::write(&case, 5, &hash, out).unwrap_or_else(|error| panic!("{error}"));
+    let written = pack::write(&case, &Origin::random(5), &hash, out)
+        .unwrap_or_else(|error| panic!("{error}"));
     pack::check(&written.folder).unwrap_or_else(|error| panic!("{error}")).remove(0)
 }
 
@@ -81,6 +82,8 @@ fn script(own: bool, arguments: &[&Path]) -> (Option<i32>, String) {
     let mut python = Command::new(COCOTB.find().expect("cocotb").program.with_file_name("python3"));
     // Without site packages, among which cocotb is.
     python.args(own.then_some("-S")).arg(workspace().join("scripts/replay.py")).args(arguments);
+    // The program checks packs in tests of its own.
+    python.arg("--checked");
     let output = python.current_dir(workspace()).output().expect("Python");
     let text = [output.stdout, output.stderr].concat();
     (output.status.code(), String::from_utf8_lossy(&text).trim().to_owned())

@@ -8,18 +8,20 @@ use std::process::Command;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
 use wheatstone_testbench::cases::{self, Case};
-use wheatstone_testbench::pack::{self, Manifest};
+use wheatstone_testbench::pack::{self, Manifest, Origin};
 use wheatstone_tests::*;
 
 /// Writes the pack of a case.
 fn write(case: &Case, out: &Path) -> Manifest {
     let hash = pack::rtl_hash(&rtl(), case.target.module()).expect("the Verilog");
-    pack::write(case, 1, &hash, out).unwrap_or_else(|error| panic!("{error}")).manifest
+    pack::write(case, &Origin::random(1), &hash, out)
+        .unwrap_or_else(|error| panic!("{error}"))
+        .manifest
 }
 
 /// Runs the command that the documentation gives, in a folder with the packs and a link to the
-/// Verilog.
-fn replay(folder: &Path, rtl: &Path, target: Target, arguments: &str) -> String {
+/// Verilog. Whether it ended well, and what it said.
+fn replay(folder: &Path, rtl: &Path, target: Target, arguments: &str) -> (bool, String) {
     // Names a missing program, and how to install it.
     let (_, _) = (tool("iverilog"), tool("vvp"));
     let link = folder.join("rtl");
@@ -29,9 +31,7 @@ fn replay(folder: &Path, rtl: &Path, target: Target, arguments: &str) -> String 
     let pack = target.name();
     let command =
         format!("iverilog -g2005 -I {pack} -o t {pack}/replay.v rtl/*.v && vvp t {arguments}");
-    let (passed, text) = said(Command::new("sh").arg("-c").arg(&command).current_dir(folder));
-    assert!(passed, "{command}\n{text}");
-    text
+    said(Command::new("sh").arg("-c").arg(&command).current_dir(folder))
 }
 
 /// Writes, checks and replays a case, with stalls and without.
@@ -41,7 +41,8 @@ fn passes(case: &Case) {
     let checked = pack::check(&folder.path().join(case.target.name()));
     assert_eq!(checked.unwrap_or_else(|error| panic!("{error}"))[0].manifest, manifest);
     for arguments in ["", "+stall=0"] {
-        let text = replay(folder.path(), &rtl(), case.target, arguments);
+        let (passed, text) = replay(folder.path(), &rtl(), case.target, arguments);
+        assert!(passed, "{text}");
         let mut lines = text.lines().rev();
         assert_eq!(lines.next(), Some("PASS"), "{} {}:\n{text}", case.target.name(), case.name);
         let outputs = manifest.ports.iter().filter(|port| port.direction == "output");
@@ -98,10 +99,35 @@ fn a_replay_on_wrong_verilog_says_fail() {
         let (folder, copy) = (folder(), copy_of_rtl());
         plant(copy.path(), file, find, to);
         write(&cases::random(target, &Config::DEFAULT, 3, 400), folder.path());
-        let text = replay(folder.path(), copy.path(), target, "");
+        let (passed, text) = replay(folder.path(), copy.path(), target, "");
+        assert!(!passed, "the exit status says so too: {text}");
         let last = text.lines().last().unwrap_or("");
         assert!(last.starts_with("FAIL ("), "{file}: {find} → {to}:\n{text}");
         assert!(!text.contains("PASS"), "{text}");
+    }
+}
+
+/// The other command of the documentation, on the files that the filter is of.
+#[test]
+fn verilator_replays_too_and_its_exit_status_says_fail() {
+    tool("verilator");
+    for wrong in [false, true] {
+        let (folder, copy) = (folder(), copy_of_rtl());
+        if wrong {
+            plant(copy.path(), "sam_filter.v", "(so_many == 0) |", "(so_many != 0) |");
+        }
+        write(&cases::random(Target::Filter, &Config::DEFAULT, 3, 400), folder.path());
+        symlink(copy.path(), folder.path().join("rtl")).expect("a link");
+        let command =
+            "verilator --binary -Wno-fatal -O0 --top-module replay -Ifilter filter/replay.v \
+            rtl/sam_filter.v rtl/sam_filter_division.v >log 2>&1 && obj_dir/Vreplay";
+        let mut shell = Command::new("sh");
+        let (passed, text) = said(shell.arg("-c").arg(command).current_dir(folder.path()));
+        let log = fs::read_to_string(folder.path().join("log")).unwrap_or_default();
+        assert!(folder.path().join("obj_dir/Vreplay").exists(), "{log}");
+        assert_eq!(passed, !wrong, "{text}");
+        assert_eq!(text.contains("\nPASS"), !wrong, "{text}");
+        assert_eq!(text.contains("\nFAIL ("), wrong, "{text}");
     }
 }
 
@@ -213,7 +239,8 @@ fn a_manifest_that_contradicts_its_files_is_refused_by_field() {
     // Where, the wrong value, and what the error must say.
     let cases: &[(&str, Value, &[&str])] = &[
         ("/format", json!("vectors"), &["field format", "wheatstone-vectors"]),
-        ("/schema", json!(2), &["field schema: 2", "a newer pack needs a newer wheatstone"]),
+        ("/schema", json!(3), &["field schema: 3", "a newer pack needs a newer wheatstone"]),
+        ("/schema", json!(1), &["field schema: 1, expected 2", "write it again with wheatstone"]),
         ("/schema", json!("1"), &["field schema: \"1\""]),
         ("/schema", json!(-1), &["field schema: -1"]),
         ("/target", json!("warp"), &["field target: warp", "wheatstone list"]),
@@ -236,30 +263,44 @@ fn a_manifest_that_contradicts_its_files_is_refused_by_field() {
         ("/ports/0/fields", json!([]), &["field ports.beat.fields"]),
         ("/ports/0/bin/file", json!("../filter/beat.bin"), &["field ports.beat.bin", "../filter"]),
         ("/ports/0/mem/file", json!("/etc/passwd"), &["field ports.beat.mem", "/etc/passwd"]),
-        ("/ports/0/mem/file", json!("..\\x"), &["field ports.beat.mem", "a name without a folder"]),
-        ("/bench/0/file", json!("../vec.vh"), &["field bench.../vec.vh", "without a folder"]),
-        ("/ports/0/bin/file", json!(".."), &["field ports.beat.bin", "without a folder"]),
-        ("/ports/0/bin/blake3", json!("ff"), &["field ports.beat.bin.blake3", "expected ff"]),
+        ("/ports/0/mem/file", json!("..\\x"), &["field ports.beat.mem", "expected beat.mem"]),
+        ("/ports/0/bin/file", json!(".."), &["field ports.beat.bin: .., expected beat.bin"]),
+        (
+            "/ports/0/bin/blake3",
+            json!("f".repeat(64)),
+            &["field ports.beat.bin.blake3", "expected fff"],
+        ),
+        (
+            "/ports/0/mem/blake3",
+            json!("ff"),
+            &["field ports.beat.mem.blake3: ff", "64 hexadecimal"],
+        ),
         ("/ports/0/fields/3/signed", json!(true), &["field ports.beat.fields.rgba.signed: true"]),
         ("/ports/0/fields/3/fraction", json!(2), &["field ports.beat.fields.rgba.fraction: 2"]),
         ("/ports/0/fields/0/doc", json!("or not"), &["field ports.beat.fields.first.doc: or not"]),
-        ("/parameters/0/value", json!(7), &["field parameters: FILTER_TERMS=7", "FILTER_TERMS=0"]),
-        ("/parameters/0/name", json!("TERMS"), &["field parameters: TERMS=0", "FILTER_TERMS=0"]),
+        ("/parameters/0/value", json!(7), &["field parameters.FILTER_TERMS: 7, expected 0"]),
+        ("/parameters/0/name", json!("TERMS"), &["field parameters: TERMS, expected FILTER_TERMS"]),
         ("/parameters", json!([]), &["field parameters: , expected"]),
         ("/statics", json!([{"name": "width", "value": 1}]), &["field statics: width"]),
         ("/flags", json!([{"name": "error", "value": 0}]), &["field flags: error"]),
         // What nothing else in the pack contradicts.
-        ("/parameters/0/value", json!(2), &["field hash"]),
+        ("/build/1/value", json!("2"), &["field parameters.FILTER_TERMS: 0, expected 2"]),
+        ("/build/1/value", json!("4"), &["field build.filter: 4, expected exact or 2 or 3"]),
+        ("/build/1/name", json!("terms"), &["field build: subpixel_bits, terms"]),
+        ("/config", json!("mine"), &["field config: mine, expected default or paper or full"]),
+        ("/config", json!("paper"), &["field hash"]),
+        ("/stimulus", json!("noise"), &["field stimulus: noise, expected random, directed"]),
         ("/seed", json!(2), &["field hash"]),
         ("/case", json!("a scene"), &["field hash"]),
         ("/generator", json!("wheatstone 9.9.9"), &["field hash"]),
-        ("/rtl_blake3", json!("00"), &["field hash"]),
+        ("/rtl_blake3", json!("00"), &["field rtl_blake3: 00", "64 hexadecimal digits"]),
+        ("/rtl_blake3", json!("0".repeat(64)), &["field hash"]),
         ("/hash", json!(""), &["field hash"]),
     ];
     for (at, value, words) in cases {
         let what = format!("{at} = {value}");
         // A wrong hash is a matter of the file that has another.
-        let file = if at.ends_with("/blake3") { "beat.bin" } else { "manifest.json" };
+        let file = if at.ends_with("/bin/blake3") { "beat.bin" } else { "manifest.json" };
         refused(&what, &[&[file], *words].concat(), |p| {
             p.manifest(|m| match m.pointer_mut(at) {
                 Some(field) => *field = value.clone(),
@@ -279,17 +320,14 @@ fn a_manifest_that_contradicts_the_bench_is_refused_by_line() {
             m["hash"] = json!(manifest.digest());
         });
     };
-    for (at, value, line) in [
-        ("/parameters/0/value", json!(2), "vec.vh differs at line 8"),
-        ("/seed", json!(2), "vec.vh differs at line 1"),
-        ("/case", json!("a scene"), "vec.vh differs at line 1"),
-        ("/generator", json!("wheatstone 9.9.9"), "vec.vh differs at line 1"),
-    ] {
-        refused(at, &["manifest.json: field bench.vec.vh", line], |p| with_hash(p, at, value));
-    }
+    let words = ["manifest.json: field bench.vec.vh", "vec.vh differs at line 8"];
+    refused("parameters", &words, |p| {
+        p.manifest(|m| m["build"][1]["value"] = json!("2"));
+        with_hash(p, "/parameters/0/value", json!(2));
+    });
     refused(
         "replay.v",
-        &["manifest.json: field bench.replay.v", "replay.v differs at line 6"],
+        &["manifest.json: field bench.replay.v", "replay.v differs at line 7"],
         |p| {
             p.edit("replay.v", |bytes| {
                 let text = String::from_utf8(bytes.clone()).expect("text");
@@ -300,6 +338,9 @@ fn a_manifest_that_contradicts_the_bench_is_refused_by_line() {
             with_hash(p, "/bench/1/blake3", json!(hash));
         },
     );
+    refused("elsewhere", &["field bench: ../vec.vh, replay.v", "expected vec.vh, replay.v"], |p| {
+        with_hash(p, "/bench/0/file", json!("../vec.vh"));
+    });
     refused(
         "fewer files",
         &["field bench: vec.vh, replay.v, expected vec.vh, replay.v, sam"],
@@ -352,7 +393,9 @@ fn a_pack_replaces_an_older_one_and_nothing_else() {
     fs::create_dir(&other).expect("a folder");
     fs::write(other.join("notes.txt"), "keep me").expect("written");
     let case = cases::random(Target::Blend, &Config::DEFAULT, 1, 20);
-    let error = pack::write(&case, 1, "", folder.path()).expect_err("not a pack").to_string();
+    let error = pack::write(&case, &Origin::random(1), "", folder.path())
+        .expect_err("not a pack")
+        .to_string();
     assert!(error.contains("blend: exists and is no vector pack"), "{error}");
     assert_eq!(fs::read_to_string(other.join("notes.txt")).expect("kept"), "keep me");
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2);

@@ -1,6 +1,6 @@
 //! Vector packs replayed outside the co-simulation: in Icarus, in cocotb, and on gate-level netlists.
 
-use crate::pack::Checked;
+use crate::pack::{self, Checked, PackError};
 use crate::sources;
 use crate::synth::{Cells, SynthError, Synthesiser};
 use crate::tools::{self, Found, Tool, ToolError, COCOTB, ICARUS, VVP};
@@ -62,6 +62,12 @@ pub enum ReplayError {
     /// There is no netlist.
     #[error(transparent)]
     Synth(#[from] SynthError),
+    /// The pack is not to be trusted.
+    #[error(transparent)]
+    Pack(#[from] PackError),
+    /// The pack is another one than was checked before.
+    #[error("{}: changed since it was checked; try again", .0.display())]
+    Changed(PathBuf),
     /// A file or folder could not be read or written.
     #[error("{}: {source}", .path.display())]
     File {
@@ -102,49 +108,64 @@ pub struct Replayer {
 }
 
 impl Replayer {
-    /// Replays a pack that was found sound.
+    /// Replays a pack that was found sound. It is checked again as it is copied into a folder of this process
+    /// alone, and replayed from there under plain names, wherever it lies.
     pub fn replay(&self, pack: &Checked, way: Way) -> Result<Replayed, ReplayError> {
         let cache = &self.synthesiser.cache;
         fs::create_dir_all(cache).map_err(ReplayError::at(cache))?;
         let scratch = Scratch::new(cache).map_err(ReplayError::at(cache))?;
+        let copy = pack::copy(&pack.folder, &scratch.path().join(PACK))?;
+        if copy.manifest != pack.manifest {
+            return Err(ReplayError::Changed(pack.folder.clone()));
+        }
         let run = Run { replayer: self, pack, folder: scratch.path() };
         match way {
-            Way::Icarus => run.icarus(&[], &self.verilog(pack)?),
+            Way::Icarus => run.icarus(&[], &run.verilog()?),
             Way::Cocotb => run.cocotb(),
             Way::Gates => run.netlist(Cells::Generic),
             Way::Osu035 => run.netlist(Cells::Osu035),
         }
     }
-
-    /// The Verilog files of a pack's module.
-    fn verilog(&self, pack: &Checked) -> Result<Vec<PathBuf>, ReplayError> {
-        let rtl = &self.synthesiser.rtl;
-        let files = sources::read(rtl, &pack.manifest.module)
-            .map_err(|e| ReplayError::File { path: e.path, source: e.source })?;
-        Ok(files.keys().filter(|name| name.ends_with(".v")).map(|name| rtl.join(name)).collect())
-    }
 }
+
+/// Name of the copy of a pack in the folder of a run, and of the copies of its Verilog.
+const PACK: &str = "pack";
+const VERILOG: &str = "rtl";
 
 /// One replay in a folder of its own.
 struct Run<'a> {
     replayer: &'a Replayer,
+    /// The pack, as messages name it.
     pack: &'a Checked,
     folder: &'a Path,
 }
 
 impl Run<'_> {
+    /// Copies the Verilog that the pack's module uses; the names of the copies in the folder of the run.
+    fn verilog(&self) -> Result<Vec<PathBuf>, ReplayError> {
+        let rtl = &self.replayer.synthesiser.rtl;
+        let files = sources::read(rtl, &self.pack.manifest.module)
+            .map_err(|e| ReplayError::File { path: e.path, source: e.source })?;
+        let folder = self.folder.join(VERILOG);
+        fs::create_dir(&folder).map_err(ReplayError::at(&folder))?;
+        for (name, content) in &files {
+            let path = folder.join(name);
+            fs::write(&path, content).map_err(ReplayError::at(&path))?;
+        }
+        let modules = files.keys().filter(|name| name.ends_with(".v"));
+        Ok(modules.map(|name| Path::new(VERILOG).join(name)).collect())
+    }
+
     /// Compiles the pack's bench with other files and runs it.
     fn icarus(&self, options: &[&str], files: &[PathBuf]) -> Result<Replayed, ReplayError> {
         let (iverilog, vvp) = (ICARUS.find()?, VVP.find()?);
-        let bench = self.pack.folder.join("replay.v");
-        let program = self.folder.join("replay.vvp");
         let start = Instant::now();
         let mut command = Command::new(&iverilog.program);
-        command.args(["-g2005", "-s", "replay"]).args(options).arg("-I").arg(&self.pack.folder);
-        command.arg("-o").arg(&program).arg(bench).args(files);
+        command.args(["-g2005", "-s", "replay"]).args(options).args(["-I", PACK]);
+        command.args(["-o", "replay.vvp"]).arg(Path::new(PACK).join("replay.v")).args(files);
         self.run(&ICARUS, &mut command)?;
-        let said = self.run(&VVP, Command::new(&vvp.program).arg(&program))?;
-        self.verdict(&VVP, &said, start)
+        let output = self.process(&VVP, Command::new(&vvp.program).arg("replay.vvp"))?;
+        self.verdict(&VVP, &output, start)
     }
 
     /// The same with a netlist in the module's place.
@@ -163,20 +184,19 @@ impl Run<'_> {
     /// Runs the script in the Python that has cocotb.
     fn cocotb(&self) -> Result<Replayed, ReplayError> {
         let (Found { program, .. }, _) = (COCOTB.find()?, ICARUS.find()?);
-        let script = self.write("replay.py", SCRIPT)?;
+        self.write("replay.py", SCRIPT)?;
+        self.verilog()?;
         let start = Instant::now();
         let mut command = Command::new(program.with_file_name("python3"));
-        command.arg(script).arg(&self.pack.folder).arg("--rtl");
-        command.arg(&self.replayer.synthesiser.rtl);
-        // A difference is told by the exit status too.
-        let said = self.process(&COCOTB, &mut command)?.said();
-        self.verdict(&COCOTB, &said, start)
+        command.args(["replay.py", "--checked", PACK, "--rtl", VERILOG]);
+        let output = self.process(&COCOTB, &mut command)?;
+        self.verdict(&COCOTB, &output, start)
     }
 
     fn write(&self, name: &str, text: &str) -> Result<PathBuf, ReplayError> {
         let path = self.folder.join(name);
         fs::write(&path, text).map_err(ReplayError::at(&path))?;
-        Ok(path)
+        Ok(name.into())
     }
 
     /// Runs a command that must succeed; returns what it said.
@@ -190,22 +210,23 @@ impl Run<'_> {
 
     fn process(&self, tool: &'static Tool, command: &mut Command) -> Result<Output, ReplayError> {
         let pack = self.pack.folder.display().to_string();
-        Ok(Process::new(tool.program, command).on(pack).run()?)
+        Ok(Process::new(tool.program, command.current_dir(self.folder)).on(pack).run()?)
     }
 
-    /// What the bench's last line says.
+    /// What the bench's last line says, and the exit status with it.
     fn verdict(
         &self,
         tool: &'static Tool,
-        said: &str,
+        output: &Output,
         start: Instant,
     ) -> Result<Replayed, ReplayError> {
+        let said = output.said();
         let passed = match said.lines().last() {
-            Some("PASS") => true,
-            Some(line) if line.starts_with("FAIL (") => false,
-            _ => return Err(self.failed(tool, said)),
+            Some("PASS") if output.succeeded() => true,
+            Some(line) if line.starts_with("FAIL (") && !output.succeeded() => false,
+            _ => return Err(self.failed(tool, &said)),
         };
-        Ok(Replayed { passed, said: said.to_owned(), time: start.elapsed() })
+        Ok(Replayed { passed, said, time: start.elapsed() })
     }
 
     fn failed(&self, tool: &'static Tool, said: &str) -> ReplayError {

@@ -1,5 +1,6 @@
 //! `wheatstone cosim`.
 
+use super::ignored::refuse;
 use super::*;
 use crate::regression::{self, command_line, counted, Entry, Event, NamedScene, Plan, Waves};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -57,8 +58,14 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
     let targets = targets(args)?;
     let scenes = scene_names(args, &targets, &settings)?;
-    if scenes.is_empty() {
-        args.common.view.refuse_eyes()?;
+    // The command that repeats a case has the options of the run that it failed in.
+    if args.case.is_none() {
+        if scenes.is_empty() {
+            args.common.refuse_scene_options()?;
+        }
+        args.common.refuse_foreign(&targets)?;
+        let only_scenes = args.common.view.scene.is_some();
+        refuse("--beats", only_scenes && args.stimulus.beats.is_some(), "a scene is drawn whole")?;
     }
     let out = args.out.clone().unwrap_or_else(|| output_folder("cosim"));
     let _tidy = Tidy::new(&out);
@@ -79,7 +86,7 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
         case: args.case.clone(),
         scenes: scenes.collect(),
         scenes_only: args.common.view.scene.is_some(),
-        seed: args.stimulus.seed,
+        seed: args.stimulus.seed(),
         beats: args.stimulus.beats,
         jobs: args.jobs.map_or(processors, usize::from),
         waves: match args.waves {

@@ -24,6 +24,7 @@ mod cosim;
 mod cover;
 mod failure;
 mod generate;
+mod ignored;
 mod info;
 mod mutate;
 mod progress;
@@ -164,9 +165,9 @@ struct View {
 /// Options of the commands that simulate or make vectors.
 #[derive(Clone, Debug, Args)]
 struct Stimulus {
-    /// Seed of random beats, stalls and initial state
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    /// Seed of random beats, stalls and initial state [default: 1]
+    #[arg(long)]
+    seed: Option<u64>,
     /// Number of random beats of each target
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
     beats: Option<u64>,
@@ -330,14 +331,6 @@ impl View {
         Ok(scene)
     }
 
-    /// Refuses eyes where no scene is drawn that they could see.
-    fn refuse_eyes(&self) -> Result<(), Failure> {
-        let options = [("--rig", self.rig.is_some()), ("--projection", self.projection.is_some())];
-        options.into_iter().find(|(_, given)| *given).map_or(Ok(()), |(option, _)| {
-            Err(Failure::Input(format!("{option}: no scene is drawn; name one with --scene")))
-        })
-    }
-
     /// The options as words of a command line.
     fn words(&self) -> Vec<String> {
         let mut words = Vec::new();
@@ -370,6 +363,10 @@ fn choice<T: ValueEnum + PartialEq>(name: &str, value: T, default: T) -> Vec<Str
 }
 
 impl Stimulus {
+    fn seed(&self) -> u64 {
+        self.seed.unwrap_or(1)
+    }
+
     /// The folder of the Verilog.
     fn rtl(&self) -> Result<PathBuf, Failure> {
         rtl_folder(&self.rtl)

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases;
-use crate::pack::{self, Checked};
+use crate::pack::{self, Checked, Origin};
 use crate::regression::counted;
 use crate::replay::{ReplayError, Replayed, Replayer, Way};
 use crate::synth::Synthesiser;
@@ -190,10 +190,11 @@ fn make(args: &ReplayArgs, rtl: &Path, out: &Path) -> Result<Vec<Named>, Failure
     let mut packs = Vec::new();
     for name in &args.config {
         let config = Settings::new::<&str>(name, &[])?.config;
+        let origin = Origin { config: name.clone(), ..Origin::random(args.seed) };
         for &target in &targets {
             let case = cases::random(target, &config, args.seed, asked(target, args.beats));
             let hash = pack::rtl_hash(rtl, target.module())?;
-            let written = pack::write(&case, args.seed, &hash, &out.join(name))?;
+            let written = pack::write(&case, &origin, &hash, &out.join(name))?;
             for pack in pack::check(&written.folder)? {
                 let label = format!("{} {name}", target.name());
                 packs.push(Named { label, config: name.clone(), pack });

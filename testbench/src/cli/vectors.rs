@@ -1,21 +1,26 @@
 //! `wheatstone vectors` and `wheatstone check`.
 
+use super::ignored::refuse;
 use super::*;
 use crate::cases::{self, Case};
-use crate::pack;
-use crate::regression::{counted, scene_head};
+use crate::pack::{self, Drawn, Origin, SceneOrigin};
+use crate::regression::{command_line, counted, scene_head};
+use wheatstone_golden::text::{printable, printable_path};
 
 /// Random beats of a pack.
 const BEATS: u64 = 4_000;
 
 #[derive(Debug, Args)]
 pub(super) struct VectorsArgs {
-    /// Units and systems (see `wheatstone list`); none means all
+    /// Units and systems (see `wheatstone list`); none means all, or with --case all that have it
     #[arg(value_name = "TARGET", value_parser = parse_target)]
     targets: Vec<Target>,
     /// Folder for the packs; each is a folder in it, named like its target
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// The directed case of this name in place of random beats
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["scene", "beats", "seed"])]
+    case: Option<String>,
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
@@ -27,6 +32,10 @@ pub(super) struct CheckArgs {
     /// A pack, or a folder of packs
     #[arg(value_name = "DIR")]
     folder: PathBuf,
+    /// Write what was checked of one pack to this new folder, byte for byte: what is replayed from there
+    /// is what was checked
+    #[arg(long, value_name = "NEW")]
+    copy: Option<PathBuf>,
     /// Folder of the Verilog that the packs must match [default: rtl of this workspace]
     #[arg(long, value_name = "DIR")]
     rtl: Option<PathBuf>,
@@ -34,54 +43,141 @@ pub(super) struct CheckArgs {
 
 pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
-    if args.common.view.scene.is_none() {
-        args.common.view.refuse_eyes()?;
-    }
-    let targets = if args.targets.is_empty() { Target::ALL.to_vec() } else { args.targets.clone() };
+    let targets = targets(args, &settings)?;
+    refuse_ignored(args, &targets)?;
     let rtl = args.stimulus.rtl()?;
-    let (seed, beats) = (args.stimulus.seed, args.stimulus.beats.unwrap_or(BEATS) as usize);
+    let mut written = Vec::new();
     for &target in &targets {
-        let case = case(args, &settings, target, seed, beats)?;
         let hash = pack::rtl_hash(&rtl, target.module())?;
-        let info = pack::write(&case, seed, &hash, &args.out)?;
-        say!("{}: {}, {}", info.folder.display(), case.name, counted(info.beats, "beat"));
+        for (case, origin) in packs(args, &settings, target)? {
+            let info = pack::write(&case, &origin, &hash, &args.out)?;
+            let folder = printable_path(&info.folder);
+            let cut = origin.scene.as_ref().filter(|scene| scene.beats < scene.beats_of);
+            let of =
+                cut.map_or(String::new(), |scene| format!(" of a scene of {}", scene.beats_of));
+            say!("{folder}: {}, {}{of}", printable(&case.name), counted(info.beats, "beat"));
+            written.push(info.folder);
+        }
     }
-    let folder = args.out.display();
-    say!("verify with:  wheatstone check {folder}");
-    say!(
-        "replay with:  iverilog -g2005 -I {folder}/{0} -o t {folder}/{0}/replay.v {1}/*.v && vvp t",
-        targets[0].name(),
-        rtl.display()
-    );
+    let words = |folder: &Path| command_line([&*folder.to_string_lossy()]);
+    say!("verify with:  wheatstone check {}", words(&args.out));
+    if let Some(folder) = written.first() {
+        let bench = words(&folder.join("replay.v"));
+        let (folder, rtl) = (words(folder), words(&rtl));
+        say!("replay with:  iverilog -g2005 -I {folder} -o t {bench} {rtl}/*.v && vvp t");
+    }
     Ok(OK)
 }
 
-/// The case of a pack: the head of a scene if one is named, or random beats.
-fn case(
+/// The targets that packs are written of.
+fn targets(args: &VectorsArgs, settings: &Settings) -> Result<Vec<Target>, Failure> {
+    let named = if args.targets.is_empty() { Target::ALL.to_vec() } else { args.targets.clone() };
+    let Some(name) = &args.case else { return Ok(named) };
+    let names = |target: Target| -> Vec<String> {
+        cases::directed(target, &settings.config).into_iter().map(|case| case.name).collect()
+    };
+    let (with, without): (Vec<Target>, Vec<Target>) =
+        named.iter().partition(|&&target| names(target).contains(name));
+    if with.is_empty() || (!without.is_empty() && !args.targets.is_empty()) {
+        let lacking = without.into_iter().next().filter(|_| !args.targets.is_empty());
+        let of = lacking.map_or(String::new(), |target| format!(" of {}", target.name()));
+        let mut there: Vec<String> = Vec::new();
+        for name in lacking.map_or(named, |target| vec![target]).into_iter().flat_map(names) {
+            let name = format!("“{name}”");
+            if !there.contains(&name) {
+                there.push(name);
+            }
+        }
+        let (name, there) = (printable(name), there.join(", "));
+        return Err(Failure::Input(format!("--case {name}: no such case{of}; there are: {there}")));
+    }
+    Ok(with)
+}
+
+/// Refuses what would make no difference.
+fn refuse_ignored(args: &VectorsArgs, targets: &[Target]) -> Result<(), Failure> {
+    let Stimulus { seed, beats, .. } = args.stimulus;
+    let latency = args.common.named().any(|name| name == "latency");
+    refuse("--param latency", latency, "a pack has no clocks: an answer waits for its read alone")?;
+    if args.common.view.scene.is_none() {
+        args.common.refuse_scene_options()?;
+    } else {
+        refuse("--seed", seed.is_some(), "nothing of a scene is random")?;
+    }
+    args.common.refuse_foreign(targets)?;
+    if beats.is_some_and(|beats| beats > pack::BEATS_LIMIT) {
+        let limit = pack::BEATS_LIMIT;
+        return Err(Failure::Input(format!("--beats: a pack has {limit} at most; ask for fewer")));
+    }
+    Ok(())
+}
+
+/// The cases of a target's packs, and where they come from: the head of a scene if one is named, a
+/// directed case, or random beats.
+fn packs(
     args: &VectorsArgs,
     settings: &Settings,
     target: Target,
-    seed: u64,
+) -> Result<Vec<(Case, Origin)>, Failure> {
+    let config = args.common.config.clone();
+    let beats = args.stimulus.beats.unwrap_or(BEATS) as usize;
+    if let Some(name) = &args.common.view.scene {
+        let (case, scene) = scene(args, settings, target, name, beats)?;
+        return Ok(vec![(case, Origin { config, scene: Some(scene), ..Origin::default() })]);
+    }
+    if let Some(name) = &args.case {
+        let directed = cases::directed(target, &settings.config).into_iter();
+        let origin = Origin { config, ..Origin::default() };
+        return Ok(directed.filter(|c| c.name == *name).map(|c| (c, origin.clone())).collect());
+    }
+    let seed = args.stimulus.seed();
+    let packs = cases::for_packs(target, &settings.config, seed, beats).into_iter();
+    let origin = Origin { config, ..Origin::random(seed) };
+    Ok(packs.map(|(suffix, case)| (case, Origin { suffix, ..origin.clone() })).collect())
+}
+
+/// The beginning of a scene.
+fn scene(
+    args: &VectorsArgs,
+    settings: &Settings,
+    target: Target,
+    name: &str,
     beats: usize,
-) -> Result<Case, Failure> {
-    let Some(name) = &args.common.view.scene else {
-        return Ok(cases::random(target, &settings.config, seed, beats));
+) -> Result<(Case, SceneOrigin), Failure> {
+    let common = &args.common;
+    let is_file = builtin_names().all(|builtin| builtin != name);
+    let file = is_file.then(|| scene::read(Path::new(name))).transpose()?;
+    let scene = common.open(name, common.view.size)?;
+    let geometry = common.geometry_of(&scene, settings)?;
+    let whole = job(settings, &geometry, settings.options);
+    let job = target.job(&whole);
+    let head = scene_head(target, &job, name, beats)
+        .ok_or_else(|| Failure::Input(format!("--scene {name}: nothing of it is drawn")))?;
+    let drawn = Drawn {
+        name,
+        file: file.as_deref(),
+        rig: &scene.rig,
+        settings,
+        cull: common.cull == CullChoice::Back,
+        wire: common.wire,
+        job: &job,
     };
-    let geometry = args.common.geometry(name, args.common.view.size, settings)?;
-    let job = job(settings, &geometry, settings.options);
-    scene_head(target, &job, name, beats)
-        .ok_or_else(|| Failure::Input(format!("--scene {name}: nothing of it is drawn")))
+    let origin = SceneOrigin::new(&drawn, &head);
+    Ok((head.case, origin))
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
-    let packs = pack::check(&args.folder)?;
-    let stimulus = Stimulus { seed: 0, beats: None, rtl: args.rtl.clone() };
+    let packs = match &args.copy {
+        Some(copy) => vec![pack::copy(&args.folder, copy)?],
+        None => pack::check(&args.folder)?,
+    };
+    let stimulus = Stimulus { seed: None, beats: None, rtl: args.rtl.clone() };
     let rtl = stimulus.rtl().ok();
     let mut status = OK;
     for checked in &packs {
         let manifest = &checked.manifest;
-        let beats: u64 = manifest.ports.iter().map(|p| p.beats).sum();
-        let sound = format!("{}: sound, {}", checked.folder.display(), counted(beats, "beat"));
+        let folder = printable_path(&checked.folder);
+        let sound = format!("{folder}: sound, {}", counted(manifest.beats(), "beat"));
         match &rtl {
             None => say!("{sound}; no Verilog here to compare with"),
             Some(rtl) if pack::rtl_hash(rtl, &manifest.module)? == manifest.rtl_blake3 => {

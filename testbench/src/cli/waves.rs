@@ -1,5 +1,6 @@
 //! `wheatstone waves`.
 
+use super::ignored::refuse;
 use super::*;
 use crate::regression::{command_line, record_waves, Focus};
 use crate::tools::GTKWAVE;
@@ -53,6 +54,9 @@ fn parse_pixel(text: &str) -> Result<(Eye, u32, u32), String> {
 
 pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
+    args.common.refuse_foreign(&[args.target])?;
+    let why = "waveforms show the beats around their focus, or the first ones";
+    refuse("--beats", args.stimulus.beats.is_some(), why)?;
     let focus = match (args.pixel, args.polygon) {
         (Some((eye, x, y)), _) => Focus::Pixel(eye, x, y),
         (None, Some(id)) => Focus::Polygon(id),
@@ -63,7 +67,7 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
     let geometry = if needs_scene {
         Some(args.common.geometry(name, args.common.view.size, &settings)?)
     } else {
-        args.common.view.refuse_eyes()?;
+        args.common.refuse_scene_options()?;
         None
     };
     let job = geometry.as_ref().map(|geometry| job(&settings, geometry, settings.options));
@@ -77,7 +81,7 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
         &settings,
         job.as_ref(),
         focus,
-        args.stimulus.seed,
+        args.stimulus.seed(),
         &rtl,
         &builder,
         &out,

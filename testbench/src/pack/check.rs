@@ -1,12 +1,19 @@
 //! Verifying a pack.
 
+use super::folder::Folder;
+use super::text::{fault, is_hash};
 use super::*;
-use std::fmt::Display;
+use crate::settings::RUN_PARAMETERS;
 use std::fs;
 use std::path::{Path, PathBuf};
 use wheatstone_golden::config::{Config, PARAMETERS};
-use wheatstone_golden::interface::Interface;
+use wheatstone_golden::formats::{Formats, DEPTH_MAX};
+use wheatstone_golden::interface::{Field, Interface, Stream};
+use wheatstone_golden::projection::Kind;
 use wheatstone_golden::targets::Target;
+
+/// Most ranges of distances of a projection.
+const RANGES_LIMIT: u64 = 1_000;
 
 /// A pack that was found sound.
 #[derive(Clone, Debug)]
@@ -19,37 +26,43 @@ pub struct Checked {
     pub interface: Interface,
 }
 
-/// Verifies the pack in a folder, or all packs in the folders of a folder.
+/// Verifies the pack in a folder, or all packs in the folders of a folder. Hidden folders, among which those
+/// of packs that are being written are, and links are none of them.
 pub fn check(folder: &Path) -> Result<Vec<Checked>, PackError> {
-    if folder.join(MANIFEST).exists() {
-        return Ok(vec![check_one(folder)?]);
+    if fs::symlink_metadata(folder.join(MANIFEST)).is_ok() {
+        return Ok(vec![check_one(folder, None)?]);
     }
     let entries = fs::read_dir(folder).map_err(PackError::at(folder))?;
-    let mut folders: Vec<PathBuf> = entries
-        .filter_map(|entry| entry.ok())
-        .map(|entry| entry.path())
-        .filter(|path| path.join(MANIFEST).exists())
-        .collect();
+    let is_pack = |entry: &fs::DirEntry| {
+        let hidden = entry.file_name().to_string_lossy().starts_with('.');
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        !hidden && is_folder && fs::symlink_metadata(entry.path().join(MANIFEST)).is_ok()
+    };
+    let packs = entries.filter_map(|entry| entry.ok()).filter(is_pack);
+    let mut folders: Vec<PathBuf> = packs.map(|entry| entry.path()).collect();
     folders.sort();
     if folders.is_empty() {
         return Err(PackError::Missing { path: folder.into() });
     }
-    folders.iter().map(|folder| check_one(folder)).collect()
+    folders.iter().map(|folder| check_one(folder, None)).collect()
 }
 
-fn list<S: Into<String>>(names: impl Iterator<Item = S>) -> String {
-    names.map(Into::into).collect::<Vec<_>>().join(", ")
-}
-
-/// Parameters, or what else has a name and a number.
-fn told<'a, N: Display>(values: impl Iterator<Item = (&'a str, N)>) -> String {
-    list(values.map(|(name, value)| format!("{name}={value}")))
+/// Verifies the pack in a folder and puts what was verified, byte for byte, into the folder `copy`, which
+/// is made. The pack that is returned is the copy.
+pub fn copy(folder: &Path, copy: &Path) -> Result<Checked, PackError> {
+    fs::create_dir(copy).map_err(PackError::at(copy))?;
+    let checked = check_one(folder, Some(copy)).inspect_err(|_| {
+        // Nothing stays of a pack that is refused.
+        let _ = fs::remove_dir_all(copy);
+    })?;
+    Ok(Checked { folder: copy.into(), ..checked })
 }
 
 /// Compares what a manifest says with what is so.
 struct Checker<'a> {
-    folder: &'a Path,
+    folder: Folder,
     path: PathBuf,
+    copy: Option<&'a Path>,
 }
 
 impl Checker<'_> {
@@ -71,35 +84,191 @@ impl Checker<'_> {
         }
     }
 
-    /// The content of a file that has the hash it should have.
-    fn content(&self, field: &str, file: &HashedFile) -> Result<Vec<u8>, PackError> {
-        let path = self.folder.join(&file.file);
-        let is_name = Path::new(&file.file).file_name().is_some_and(|name| *name == *file.file);
-        if !is_name || file.file.contains('\\') {
-            return Err(self.fault(field, &file.file, "a name without a folder"));
+    /// A list that has the same entries in the same order.
+    fn same_list<T: PartialEq + ToString>(
+        &self,
+        field: &str,
+        found: impl Iterator<Item = T>,
+        expected: impl Iterator<Item = T>,
+    ) -> Result<(), PackError> {
+        let [found, expected] = [found.collect::<Vec<T>>(), expected.collect()];
+        let told = |list: &[T]| list.iter().map(T::to_string).collect::<Vec<_>>().join(", ");
+        match found == expected {
+            true => Ok(()),
+            false => Err(self.fault(field, told(&found), told(&expected))),
         }
-        let content = fs::read(&path).map_err(PackError::at(&path))?;
+    }
+
+    /// A number that is between two others.
+    fn within(&self, field: &str, found: u64, least: u64, most: u64) -> Result<(), PackError> {
+        match (least..=most).contains(&found) {
+            true => Ok(()),
+            false => Err(self.fault(field, found, format!("{least} to {most}"))),
+        }
+    }
+
+    /// A text that nothing is compared with.
+    fn plain(&self, field: &str, found: &str) -> Result<(), PackError> {
+        fault(found).map_or(Ok(()), |expected| Err(self.fault(field, found, expected)))
+    }
+
+    /// A number with a fraction, or infinity.
+    fn number(&self, field: &str, found: &str) -> Result<(), PackError> {
+        match found.len() <= 40 && found.parse::<f64>().is_ok_and(|n| !n.is_nan()) {
+            true => Ok(()),
+            false => Err(self.fault(field, found, "a number")),
+        }
+    }
+
+    fn hash(&self, field: &str, found: &str) -> Result<(), PackError> {
+        match is_hash(found) {
+            true => Ok(()),
+            false => Err(self.fault(field, found, "64 hexadecimal digits in lower case")),
+        }
+    }
+
+    /// The content of the file of that name that has the hash it should have.
+    fn content(&self, field: &str, file: &HashedFile, name: &str) -> Result<Vec<u8>, PackError> {
+        self.same(field, file.file.as_str(), name)?;
+        self.hash(&format!("{field}.blake3"), &file.blake3)?;
+        let content = self.folder.read(name, FILE_LIMIT)?;
         let hash = blake3::hash(&content).to_hex().to_string();
         if hash != file.blake3 {
             return Err(PackError::Field {
-                path,
+                path: self.path.with_file_name(name),
                 field: format!("{field}.blake3"),
                 found: format!("the file has {hash} ({} bytes)", content.len()),
                 expected: file.blake3.clone(),
             });
         }
+        self.keep(name, &content)?;
         Ok(content)
+    }
+
+    /// Puts what was read into the copy.
+    fn keep(&self, name: &str, content: &[u8]) -> Result<(), PackError> {
+        let Some(copy) = self.copy else { return Ok(()) };
+        let path = copy.join(name);
+        fs::write(&path, content).map_err(PackError::at(&path))
+    }
+
+    /// Verilog parameters: those that the build parameters make of the target.
+    fn parameters(&self, found: &[Value], interface: &Interface) -> Result<(), PackError> {
+        let names = found.iter().map(|p| p.name.as_str());
+        self.same_list("parameters", names, interface.parameters.iter().map(|(name, _)| *name))?;
+        found.iter().zip(&interface.parameters).try_for_each(|(found, &(name, value))| {
+            self.same(&format!("parameters.{name}"), found.value, value.into())
+        })
     }
 
     /// Names and values of static inputs or of flags.
     fn values(&self, field: &str, found: &[Value], fields: &[Field]) -> Result<(), PackError> {
-        let names = list(found.iter().map(|value| value.name.as_str()));
-        self.same(field, names, list(fields.iter().map(|f| f.name)))?;
+        let names = found.iter().map(|value| value.name.as_str());
+        self.same_list(field, names, fields.iter().map(|f| f.name))?;
         match found.iter().zip(fields).find(|(value, field)| value.value > field.mask()) {
             Some((Value { name, value }, Field { bits, .. })) => {
                 Err(self.fault(&format!("{field}.{name}"), value, format!("{bits} bits at most")))
             }
             None => Ok(()),
+        }
+    }
+
+    /// Names of settings, and values that are among those which each may have.
+    fn settings(
+        &self,
+        field: &str,
+        found: &[Setting],
+        known: &[(&str, Vec<&str>)],
+    ) -> Result<(), PackError> {
+        let names = found.iter().map(|setting| setting.name.as_str());
+        self.same_list(field, names, known.iter().map(|(name, _)| *name))?;
+        let wrong = |(setting, (_, values)): &(&Setting, &(&str, Vec<&str>))| {
+            !values.contains(&setting.value.as_str())
+        };
+        match found.iter().zip(known).find(wrong) {
+            Some((Setting { name, value }, (_, values))) => {
+                Err(self.fault(&format!("{field}.{name}"), value, values.join(" or ")))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The configuration that the build parameters say.
+    fn build(&self, manifest: &Manifest) -> Result<Config, PackError> {
+        let known: Vec<_> = PARAMETERS.iter().map(|p| (p.name, p.values.to_vec())).collect();
+        self.settings("build", &manifest.build, &known)?;
+        let Some(mut config) = Config::named(&manifest.config) else {
+            return Err(self.fault("config", &manifest.config, Config::NAMES.join(" or ")));
+        };
+        for Setting { name, value } in &manifest.build {
+            let set = config.set(name, value);
+            set.map_err(|error| self.fault(&format!("build.{name}"), value, error))?;
+        }
+        Ok(config)
+    }
+
+    fn frames(&self, manifest: &Manifest, target: Target, f: &Formats) -> Result<(), PackError> {
+        let has_memory = target.is_system() || target == Target::Mono;
+        let Some(frames) = &manifest.frames else {
+            return match has_memory {
+                true => Err(self.fault("frames", "nothing", "the frame buffers")),
+                false => Ok(()),
+            };
+        };
+        if !has_memory {
+            return Err(self.fault("frames", "frame buffers", "nothing: it reads none"));
+        }
+        // Two views may be above each other.
+        let most = 2 * u64::from(f.max_size);
+        self.within("frames.width", frames.width.into(), 1, most)?;
+        self.within("frames.height", frames.height.into(), 1, most)?;
+        self.same("frames.depth", frames.depth, DEPTH_MAX)?;
+        for [left, right, top, bottom] in frames.open {
+            let columns = left <= right && right <= frames.width;
+            if !columns || top > bottom || bottom > frames.height {
+                let found = format!("[{left}, {right}, {top}, {bottom}]");
+                return Err(self.fault("frames.open", found, "a part of the frame buffer"));
+            }
+        }
+        Ok(())
+    }
+
+    /// What is said of a scene, as far as it can be known without it.
+    fn scene(
+        &self,
+        scene: &SceneOrigin,
+        manifest: &Manifest,
+        f: &Formats,
+    ) -> Result<(), PackError> {
+        self.plain("scene.name", &scene.name)?;
+        if let Some(hash) = &scene.file_blake3 {
+            self.hash("scene.file_blake3", hash)?;
+        }
+        self.hash("scene.polygons_blake3", &scene.polygons_blake3)?;
+        self.within("scene.width", scene.width.into(), 1, f.max_size.into())?;
+        self.within("scene.height", scene.height.into(), 1, f.max_size.into())?;
+        if Kind::named(&scene.projection).is_none() {
+            let names = Kind::ALL.map(Kind::name).join(" or ");
+            return Err(self.fault("scene.projection", &scene.projection, names));
+        }
+        let rig = scene.rig.iter().map(|setting| setting.name.as_str());
+        self.same_list("scene.rig", rig, origin::RIG.into_iter())?;
+        for Setting { name, value } in &scene.rig {
+            self.number(&format!("scene.rig.{name}"), value)?;
+        }
+        self.within("scene.ranges", scene.ranges.len() as u64, 1, RANGES_LIMIT)?;
+        scene.ranges.iter().flatten().try_for_each(|n| self.number("scene.ranges", n))?;
+        let run = RUN_PARAMETERS.iter().filter(|p| p.name != "latency");
+        let mut known = vec![("cull", vec!["none", "back"]), ("wire", vec!["off", "on"])];
+        known.extend(run.map(|p| (p.name, p.values.to_vec())));
+        self.settings("scene.options", &scene.options, &known)?;
+        self.within("scene.polygons", scene.polygons, 1, scene.polygons_of)?;
+        self.within("scene.beats", scene.beats, 1, scene.beats_of)?;
+        match manifest.ports.iter().find(|port| port.name == "beat") {
+            Some(port) if matches!(&*manifest.target, "minimal" | "hybrid" | "primary") => {
+                self.same("scene.beats", scene.beats, port.beats)
+            }
+            _ => Ok(()),
         }
     }
 
@@ -111,8 +280,8 @@ impl Checker<'_> {
             port.answers.as_deref().unwrap_or("nothing"),
             stream.answers.unwrap_or("nothing"),
         )?;
-        let found = list(port.fields.iter().map(|f| f.name.as_str()));
-        self.same(&field("fields"), found, list(stream.fields.iter().map(|f| f.name)))?;
+        let found = port.fields.iter().map(|f| f.name.as_str());
+        self.same_list(&field("fields"), found, stream.fields.iter().map(|f| f.name))?;
         for (found, expected) in port.fields.iter().zip(packed_fields(&stream.fields)) {
             let field = |name: &str| field(&format!("fields.{}.{name}", found.name));
             self.same(&field("lsb"), found.lsb, expected.lsb)?;
@@ -123,122 +292,127 @@ impl Checker<'_> {
         }
         self.same(&field("bits"), port.bits, stream.bits())?;
         self.same(&field("bytes"), port.bytes, port.bits.div_ceil(8))?;
-        let bin = self.content(&field("bin"), &port.bin)?;
+        let [bin_name, mem_name] = ["bin", "mem"].map(|kind| format!("{}.{kind}", stream.name));
+        let bin = self.content(&field("bin"), &port.bin, &bin_name)?;
         self.same(&field("beats"), port.beats.saturating_mul(port.bytes.into()), bin.len() as u64)?;
         self.same(&field("crc32"), port.crc32.clone(), crc32(&bin))?;
-        let mem = self.content(&field("mem"), &port.mem)?;
-        self.text(
-            &field("mem"),
-            &port.mem.file,
-            &mem,
-            &mem_text(&bin, port.bytes as usize, port.bits),
-        )
+        let mem = self.content(&field("mem"), &port.mem, &mem_name)?;
+        let expected = mem_text(&bin, port.bytes as usize, port.bits);
+        self.text(&field("mem"), &mem_name, &mem, &expected, "the beats of the binary file")
     }
 
-    /// Compares a file with what the rest of the pack says it has.
-    fn text(&self, field: &str, file: &str, found: &[u8], expected: &str) -> Result<(), PackError> {
+    /// Compares a file with what it must be.
+    fn text(
+        &self,
+        field: &str,
+        file: &str,
+        found: &[u8],
+        expected: &str,
+        what: &str,
+    ) -> Result<(), PackError> {
         if found == expected.as_bytes() {
             return Ok(());
         }
         let lines = found.split(|&b| b == b'\n').zip(expected.split('\n'));
         let line = 1 + lines.take_while(|(found, line)| *found == line.as_bytes()).count();
-        let found = format!("{file} differs at line {line}");
-        Err(self.fault(field, found, "what the rest of the pack says"))
+        Err(self.fault(field, format!("{file} differs at line {line}"), what))
     }
 
     /// The files that replay the pack.
     fn bench(&self, manifest: &Manifest, interface: &Interface) -> Result<(), PackError> {
-        let content = |file: &HashedFile| self.content(&format!("bench.{}", file.file), file);
-        let contents = manifest.bench.iter().map(content).collect::<Result<Vec<_>, _>>()?;
-        self.same("hash", manifest.hash.clone(), manifest.digest())?;
-        let files = replay::files(manifest, interface);
-        let found = list(manifest.bench.iter().map(|file| file.file.as_str()));
-        self.same("bench", found, list(files.iter().map(|(file, _)| *file)))?;
-        for (content, (file, text)) in contents.iter().zip(&files) {
-            self.text(&format!("bench.{file}"), file, content, text)?;
+        let files = bench::files(manifest, interface);
+        let found = manifest.bench.iter().map(|file| file.file.as_str());
+        self.same_list("bench", found, files.iter().map(|(file, _)| *file))?;
+        let what = format!(
+            "what {} generates; the pack is by {}: write it again with wheatstone vectors",
+            write::GENERATOR,
+            manifest.generator
+        );
+        for (file, (name, text)) in manifest.bench.iter().zip(&files) {
+            let field = format!("bench.{name}");
+            let content = self.content(&field, file, name)?;
+            self.text(&field, name, &content, text, &what)?;
         }
         Ok(())
     }
-}
 
-/// The interface of a target with these parameters: it is the same in all configurations that have them.
-fn interface(target: Target, parameters: &[Value]) -> Option<Interface> {
-    let same = |(a, b): (&(&str, u32), &Value)| a.0 == b.name && u64::from(a.1) == b.value;
-    let mut all = configurations().into_iter().map(|config| target.interface(&config));
-    all.find(|i| {
-        i.parameters.len() == parameters.len() && i.parameters.iter().zip(parameters).all(same)
-    })
-}
-
-/// Every configuration that can be built.
-fn configurations() -> Vec<Config> {
-    PARAMETERS.iter().fold(vec![Config::DEFAULT], |configs, parameter| {
-        let with = |&config: &Config| {
-            parameter.values.iter().filter_map(move |value| {
-                let mut config = config;
-                config.set(parameter.name, value).ok().map(|()| config)
-            })
+    /// The manifest, of this layout.
+    fn manifest(&self) -> Result<Manifest, PackError> {
+        let text = self.folder.read(MANIFEST, MANIFEST_LIMIT)?;
+        let fault = |error: serde_json::Error| PackError::Manifest {
+            path: self.path.clone(),
+            line: error.line(),
+            column: error.column(),
+            message: error.to_string(),
         };
-        configs.iter().flat_map(with).collect()
-    })
+        // The version first: another layout may have fields that this one does not know.
+        let value: serde_json::Value = serde_json::from_slice(&text).map_err(fault)?;
+        let format = value.get("format").and_then(|f| f.as_str()).unwrap_or("nothing");
+        self.same("format", format, "wheatstone-vectors")?;
+        let schema = value.get("schema");
+        let found = schema.map_or("nothing".into(), |schema| schema.to_string());
+        match schema.and_then(|schema| schema.as_u64()) {
+            Some(n) if n == u64::from(SCHEMA) => {}
+            Some(n) if n < SCHEMA.into() => {
+                let remedy = "the pack is older: write it again with wheatstone vectors";
+                return Err(self.fault("schema", found, format!("{SCHEMA}; {remedy}")));
+            }
+            _ => {
+                let remedy = "a newer pack needs a newer wheatstone";
+                return Err(self.fault("schema", found, format!("{SCHEMA}; {remedy}")));
+            }
+        }
+        self.keep(MANIFEST, &text)?;
+        serde_json::from_slice(&text).map_err(fault)
+    }
 }
 
-fn check_one(folder: &Path) -> Result<Checked, PackError> {
+/// Whether a text names a program as this one does, with any version.
+fn is_generator(text: &str) -> bool {
+    let version = text.strip_prefix("wheatstone ").filter(|version| version.len() <= 40);
+    let is_part = |b: u8| b.is_ascii_alphanumeric() || b"+-.".contains(&b);
+    version.is_some_and(|version| !version.is_empty() && version.bytes().all(is_part))
+}
+
+fn check_one(folder: &Path, copy: Option<&Path>) -> Result<Checked, PackError> {
     let path = folder.join(MANIFEST);
-    let text = fs::read_to_string(&path).map_err(PackError::at(&path))?;
-    let fault = |error: serde_json::Error| PackError::Manifest {
-        path: path.clone(),
-        line: error.line(),
-        column: error.column(),
-        message: error.to_string(),
-    };
-    let checker = Checker { folder, path: path.clone() };
-    // The version first: a newer layout may have fields that this one does not know.
-    let value: serde_json::Value = serde_json::from_str(&text).map_err(fault)?;
-    let format = value.get("format").and_then(|f| f.as_str()).unwrap_or("nothing");
-    checker.same("format", format, "wheatstone-vectors")?;
-    let schema = value.get("schema").and_then(|s| s.as_u64());
-    if schema != Some(SCHEMA.into()) {
-        let found = value.get("schema").map_or("nothing".into(), |s| s.to_string());
-        let expected = format!("{SCHEMA}; a newer pack needs a newer wheatstone");
-        return Err(checker.fault("schema", found, expected));
+    let checker = Checker { folder: Folder::open(folder)?, path, copy };
+    let manifest = checker.manifest()?;
+    if !is_generator(&manifest.generator) {
+        return Err(checker.fault("generator", &manifest.generator, "wheatstone and a version"));
     }
-    let manifest: Manifest = serde_json::from_str(&text).map_err(fault)?;
     let target = Target::named(&manifest.target).ok_or_else(|| {
         checker.fault("target", &manifest.target, "a target that `wheatstone list` names")
     })?;
     checker.same("module", manifest.module.as_str(), target.module())?;
-    let interface = interface(target, &manifest.parameters).ok_or_else(|| {
-        let found = told(manifest.parameters.iter().map(|p| (p.name.as_str(), p.value)));
-        let usual = told(target.interface(&Config::DEFAULT).parameters.into_iter());
-        checker.fault("parameters", found, format!("those of a configuration, as {usual}"))
-    })?;
+    checker.plain("case", &manifest.case)?;
+    let config = checker.build(&manifest)?;
+    let interface = target.interface(&config);
+    checker.parameters(&manifest.parameters, &interface)?;
     checker.values("statics", &manifest.statics, &interface.statics)?;
     checker.values("flags", &manifest.flags, &interface.flags)?;
-    let found = list(manifest.ports.iter().map(|p| p.name.as_str()));
-    checker.same("ports", found, list(interface.streams.iter().map(|s| s.name)))?;
+    let f = target.formats(&config);
+    checker.frames(&manifest, target, &f)?;
+    match (&*manifest.stimulus, &manifest.scene) {
+        ("scene", Some(scene)) => checker.scene(scene, &manifest, &f)?,
+        ("random" | "directed", None) => {}
+        (found, _) => {
+            return Err(checker.fault("stimulus", found, "random, directed, or scene with a scene"))
+        }
+    }
+    checker.hash("rtl_blake3", &manifest.rtl_blake3)?;
+    let found = manifest.ports.iter().map(|p| p.name.as_str());
+    checker.same_list("ports", found, interface.streams.iter().map(|s| s.name))?;
     for (port, stream) in manifest.ports.iter().zip(&interface.streams) {
         checker.port(port, stream)?;
     }
+    checker.same("hash", manifest.hash.clone(), manifest.digest())?;
     checker.bench(&manifest, &interface)?;
-    Ok(Checked { folder: folder.into(), manifest, interface })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeMap;
-
-    #[test]
-    fn parameters_decide_an_interface() {
-        let count: usize = PARAMETERS.iter().map(|p| p.values.len()).product();
-        assert_eq!(configurations().len(), count);
-        for target in Target::ALL {
-            let mut all: BTreeMap<Vec<(&str, u32)>, Interface> = BTreeMap::new();
-            for interface in configurations().iter().map(|config| target.interface(config)) {
-                let first = all.entry(interface.parameters.clone()).or_insert(interface.clone());
-                assert_eq!(*first, interface, "{}", target.name());
-            }
-        }
+    let streams = manifest.ports.iter().flat_map(|port| [&port.bin, &port.mem]);
+    let files = streams.chain(&manifest.bench).map(|file| file.file.as_str());
+    let names: Vec<&str> = files.chain([MANIFEST]).collect();
+    if let Some(file) = checker.folder.other_than(&names)? {
+        return Err(PackError::Extra { path: folder.into(), file });
     }
+    Ok(Checked { folder: folder.into(), manifest, interface })
 }

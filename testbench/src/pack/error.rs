@@ -3,12 +3,13 @@
 use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
+use wheatstone_golden::text::{printable, printable_path};
 
 /// A pack could not be written, or is not to be trusted.
 #[derive(Debug, Error)]
 pub enum PackError {
     /// A file or folder could not be read or written.
-    #[error("{path}: {source}")]
+    #[error("{}: {source}", printable_path(.path))]
     File {
         /// Which one.
         path: PathBuf,
@@ -16,7 +17,7 @@ pub enum PackError {
         source: io::Error,
     },
     /// The manifest is no manifest.
-    #[error("{path}: line {line}, column {column}: {message}")]
+    #[error("{}: line {line}, column {column}: {}", printable_path(.path), printable(.message))]
     Manifest {
         /// The manifest.
         path: PathBuf,
@@ -28,7 +29,7 @@ pub enum PackError {
         message: String,
     },
     /// A field of the manifest does not fit the rest.
-    #[error("{path}: field {field}: {found}, expected {expected}")]
+    #[error("{}: field {}: {}, expected {}", printable_path(.path), printable(.field), printable(.found), printable(.expected))]
     Field {
         /// The manifest.
         path: PathBuf,
@@ -40,10 +41,28 @@ pub enum PackError {
         expected: String,
     },
     /// The folder has no pack, nor packs in its folders.
-    #[error("{path}: no vector pack here (a pack has a file manifest.json); write one with: wheatstone vectors --out {path}")]
+    #[error("{0}: no vector pack here (a pack has a file manifest.json); write one with: wheatstone vectors --out {0}", printable_path(.path))]
     Missing {
         /// The folder.
         path: PathBuf,
+    },
+    /// The folder has more than a pack.
+    #[error("{}: {} is no file of this pack; remove it, or move it out of the folder", printable_path(.path), printable(.file))]
+    Extra {
+        /// The folder.
+        path: PathBuf,
+        /// What it has.
+        file: String,
+    },
+    /// The vectors are more than a pack may have.
+    #[error("{}: {bytes} bytes, more than the {limit} that a file of a pack may have; ask for fewer --beats", printable_path(.path))]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its bytes.
+        bytes: u64,
+        /// Most bytes of a file.
+        limit: u64,
     },
 }
 

@@ -1,11 +1,18 @@
 //! Writing a pack.
 
+use super::beats::pack_all;
+use super::text::plain;
 use super::*;
 use crate::cases::Case;
 use std::fs;
 use std::path::{Path, PathBuf};
-use wheatstone_golden::files::{publish, Scratch};
-use wheatstone_golden::interface::Table;
+use wheatstone_golden::config::PARAMETERS;
+use wheatstone_golden::files::Scratch;
+use wheatstone_golden::formats::Eye;
+use wheatstone_golden::interface::{Direction, Stream, Table};
+
+/// Name and version of this program.
+pub(super) const GENERATOR: &str = concat!("wheatstone ", env!("CARGO_PKG_VERSION"));
 
 /// What was written.
 #[derive(Clone, Debug)]
@@ -18,15 +25,20 @@ pub struct PackInfo {
     pub manifest: Manifest,
 }
 
-/// Writes the pack of a case into `out/<target>`, replacing one that is there. The folder appears
-/// complete or not at all.
-pub fn write(case: &Case, seed: u64, rtl_blake3: &str, out: &Path) -> Result<PackInfo, PackError> {
+/// Writes the pack of a case into `out/<target><suffix>`, replacing one that is there. The folder is at all
+/// times the old pack or the new one, whole.
+pub fn write(
+    case: &Case,
+    origin: &Origin,
+    rtl_blake3: &str,
+    out: &Path,
+) -> Result<PackInfo, PackError> {
     fs::create_dir_all(out).map_err(PackError::at(out))?;
     let temporary = Scratch::new(out).map_err(PackError::at(out))?;
-    let manifest = fill(case, seed, rtl_blake3, temporary.path())?;
-    let folder = out.join(case.target.name());
-    replace(temporary, &folder)?;
-    Ok(PackInfo { beats: manifest.ports.iter().map(|p| p.beats).sum(), folder, manifest })
+    let manifest = fill(case, origin, rtl_blake3, temporary.path())?;
+    let folder = out.join(format!("{}{}", case.target.name(), origin.suffix));
+    publish::publish(temporary, &folder)?;
+    Ok(PackInfo { beats: manifest.beats(), folder, manifest })
 }
 
 /// Hash of the Verilog that a module can use.
@@ -41,16 +53,12 @@ pub fn rtl_hash(rtl: &Path, module: &str) -> Result<String, PackError> {
     Ok(hasher.finalize().to_hex().to_string())
 }
 
-/// Puts a finished folder in the place of an older one.
-fn replace(finished: Scratch, folder: &Path) -> Result<(), PackError> {
-    if folder.exists() && !folder.join(MANIFEST).exists() {
-        let source = std::io::Error::other("exists and is no vector pack; it is left alone");
-        return Err(PackError::File { path: folder.into(), source });
-    }
-    publish(finished, folder).map_err(|e| PackError::File { path: e.file, source: e.source })
-}
-
-fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manifest, PackError> {
+fn fill(
+    case: &Case,
+    origin: &Origin,
+    rtl_blake3: &str,
+    folder: &Path,
+) -> Result<Manifest, PackError> {
     let interface = case.interface();
     let mut inputs = case.inputs.iter();
     let mut outputs = case.outputs.iter();
@@ -66,14 +74,26 @@ fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manif
         let pair = |(name, &value): (&str, &u64)| Value { name: name.into(), value };
         names.into_iter().zip(values).map(pair).collect::<Vec<Value>>()
     };
+    let stimulus = match (&origin.scene, origin.seed) {
+        (Some(_), _) => "scene",
+        (None, Some(_)) => "random",
+        (None, None) => "directed",
+    };
+    let config = if origin.config.is_empty() { "default" } else { &origin.config };
     let mut manifest = Manifest {
         format: "wheatstone-vectors".into(),
         schema: SCHEMA,
-        generator: concat!("wheatstone ", env!("CARGO_PKG_VERSION")).into(),
+        generator: GENERATOR.into(),
         target: interface.target.into(),
         module: interface.module.into(),
-        case: case.name.clone(),
-        seed,
+        case: plain(&case.name),
+        stimulus: stimulus.into(),
+        seed: origin.seed.unwrap_or(0),
+        config: config.into(),
+        build: PARAMETERS
+            .iter()
+            .map(|p| Setting { name: p.name.into(), value: case.config.value(p).into() })
+            .collect(),
         parameters: interface
             .parameters
             .iter()
@@ -81,12 +101,17 @@ fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manif
             .collect(),
         statics: values(interface.statics.iter().map(|f| f.name).collect(), &case.statics),
         flags: values(interface.flags.iter().map(|f| f.name).collect(), &case.flags),
+        frames: frames(case),
+        scene: origin.scene.clone(),
         rtl_blake3: rtl_blake3.into(),
         ports,
         bench: Vec::new(),
         hash: String::new(),
     };
-    for (file, text) in replay::files(&manifest, &interface) {
+    if let Some(scene) = &mut manifest.scene {
+        scene.name = plain(&scene.name);
+    }
+    for (file, text) in bench::files(&manifest, &interface) {
         manifest.bench.push(save(folder, file, text.as_bytes())?);
     }
     manifest.hash = manifest.digest();
@@ -100,14 +125,27 @@ fn fill(case: &Case, seed: u64, rtl_blake3: &str, folder: &Path) -> Result<Manif
     Ok(manifest)
 }
 
+/// The frame buffers that a case begins with.
+fn frames(case: &Case) -> Option<FrameBuffers> {
+    let [before, _] = &**case.memory.as_ref()?;
+    let [left, _] = &before.eyes;
+    // Every view has a pixel, and nothing is drawn yet.
+    let (colour, depth) = (*left.colour.first()?, *left.depth.first()?);
+    Some(FrameBuffers {
+        width: left.width,
+        height: left.height,
+        colour,
+        depth,
+        open: Eye::BOTH.map(|eye| before.open(eye)),
+        tested: before.is_tested(),
+    })
+}
+
 fn port(stream: &Stream, table: &Table, folder: &Path) -> Result<Port, PackError> {
     let fields = packed_fields(&stream.fields);
     let bits = stream.bits();
     let beat_bytes = bits.div_ceil(8) as usize;
-    let mut bytes = Vec::with_capacity(table.len() * beat_bytes);
-    for index in 0..table.len() {
-        pack(table.row(index), &fields, &mut bytes);
-    }
+    let bytes = pack_all(table, &fields, beat_bytes);
     let text = mem_text(&bytes, beat_bytes, bits);
     Ok(Port {
         name: stream.name.into(),
@@ -125,6 +163,10 @@ fn port(stream: &Stream, table: &Table, folder: &Path) -> Result<Port, PackError
 
 fn save(folder: &Path, file: &str, content: &[u8]) -> Result<HashedFile, PackError> {
     let path = folder.join(file);
+    let (bytes, limit) = (content.len() as u64, FILE_LIMIT);
+    if bytes > limit {
+        return Err(PackError::TooLarge { path: file.into(), bytes, limit });
+    }
     fs::write(&path, content).map_err(PackError::at(&path))?;
     Ok(HashedFile { file: file.into(), blake3: blake3::hash(content).to_hex().to_string() })
 }

@@ -1,0 +1,71 @@
+//! A finished pack in its place.
+
+use super::{PackError, MANIFEST};
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use wheatstone_golden::files::{self, Scratch};
+
+/// How long another writer of packs is waited for.
+const LIMIT: Duration = Duration::from_secs(60);
+/// After this time a writer says what it waits for.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Gives a finished folder its name, in exchange for an older pack that has it, which is removed then. A process
+/// that is killed at any moment leaves the old or the new one.
+pub(super) fn publish(finished: Scratch, folder: &Path) -> Result<(), PackError> {
+    let parent = folder.parent().unwrap_or(Path::new("."));
+    let _lock = lock(parent, LIMIT)?;
+    match fs::symlink_metadata(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        Err(error) => return Err(PackError::at(folder)(error)),
+        Ok(found) if found.is_dir() && fs::symlink_metadata(folder.join(MANIFEST)).is_ok() => {}
+        Ok(_) => {
+            let why =
+                "exists and is no vector pack; it is left alone: move it, or name another --out";
+            return Err(PackError::at(folder)(io::Error::other(why)));
+        }
+    }
+    files::publish(finished, folder).map_err(|e| PackError::at(e.file)(e.source))
+}
+
+/// Keeps other writers of packs away from a folder, until the file is closed.
+fn lock(folder: &Path, limit: Duration) -> Result<File, PackError> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let file = File::open(folder).map_err(PackError::at(folder))?;
+    let start = Instant::now();
+    let mut told = false;
+    loop {
+        match file.try_lock() {
+            Ok(()) => return Ok(file),
+            Err(TryLockError::WouldBlock) if start.elapsed() < limit => {}
+            Err(TryLockError::WouldBlock) => {
+                let why = "another process is putting a pack here and does not end; try again when it has";
+                return Err(PackError::at(folder)(io::Error::other(why)));
+            }
+            // Where the file system has no locks, an exchange is whole all the same.
+            Err(TryLockError::Error(_)) => return Ok(file),
+        }
+        if !told && start.elapsed() >= PATIENCE {
+            eprintln!("{}: waiting for another process that puts a pack here", folder.display());
+            told = true;
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lock_is_waited_for_no_longer_than_its_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let held = lock(folder.path(), LIMIT).unwrap();
+        let error = lock(folder.path(), Duration::from_millis(50)).unwrap_err().to_string();
+        assert!(error.contains("another process is putting a pack here"), "{error}");
+        drop(held);
+        lock(folder.path(), LIMIT).unwrap();
+    }
+}
