@@ -1,22 +1,24 @@
 //! From meshes to polygons: lighting, clipping, culling, projection and snapping.
 //!
-//! 1. Corners are lit for each eye, from the side that is seen.
+//! 1. Corners are lit for each eye, from the side that is seen. Faces that are not convex are cut into
+//!    triangles.
 //! 2. Polygons are cut at the near and far planes, in space; with several partitions at those of each,
 //!    and what is left goes on in each by itself. What has a corner above or below the guard band is
 //!    cut there too, alike for both eyes.
 //! 3. A polygon that still leaves the guard band in either view is cut for each eye alone, and
 //!    goes on as one polygon an eye.
 //! 4. Corners are snapped. Culling looks at the snapped polygon of each eye.
-//! 5. Polygons that were cut go on as fans of triangles with the same id; so do polygons of more
+//! 5. Polygons that were cut there go on as fans of triangles with the same id; so do polygons of more
 //!    than three corners that snapping made concave.
 
 use super::camera::{Camera, Lens, Snapped};
 use super::clip::{clip_all, Corner};
+use super::cut::{cut, is_convex_polygon, Crossing, Cut};
 use super::geometry::{Counts, Cull, Geometry, Options};
 use super::mesh::Mesh;
 use super::rig::HalfSpace;
 use super::shading::Shading;
-use super::vector::extent;
+use super::vector::{dot, extent, outward, sub, Vec3};
 use super::Scene;
 use crate::formats::{Eye, Formats, Rgba};
 use crate::frame::Scissor;
@@ -156,10 +158,12 @@ impl<'a> Builder<'a> {
                 |&k: &u32| Corner { position: mesh.positions[k as usize], ..Corner::default() };
             let corners: Vec<Corner> = face.iter().map(corner).collect();
             let surface = Surface { id: first_face + n as u32, texture: None };
-            self.partitioned(&corners, surface, |partition, corners| {
-                let colour = shadings[partition].face(n);
-                corners.iter_mut().for_each(|c| c.colour = colour);
-            });
+            for piece in convex_pieces(corners) {
+                self.partitioned(&piece, surface, |partition, corners| {
+                    let colour = shadings[partition].face(n);
+                    corners.iter_mut().for_each(|c| c.colour = colour);
+                });
+            }
         }
     }
 
@@ -171,14 +175,34 @@ impl<'a> Builder<'a> {
         mut colour: impl FnMut(usize, &mut [Corner]),
     ) {
         let partitions = Rc::clone(&self.partitions);
-        let mut outside = true;
+        let mut reached = false;
         for (n, partition) in partitions.iter().enumerate().filter(|(_, p)| p.reaches(corners)) {
-            outside = false;
+            reached = true;
             let mut corners = corners.to_vec();
             colour(n, &mut corners);
             self.polygon(partition, corners, surface);
         }
-        self.counts.outside += usize::from(outside);
+        if !reached {
+            self.out_of_range(corners);
+        }
+    }
+
+    /// Counts a polygon that lies at no distance that is drawn.
+    fn out_of_range(&mut self, corners: &[Corner]) {
+        let rig = &self.scene.rig;
+        let distances = corners.iter().map(|c| c.position[2] + rig.viewing_distance);
+        let [nearest, farthest] = extent(distances);
+        let counts = &mut self.counts;
+        let count = if farthest <= 0.0 {
+            &mut counts.behind
+        } else if farthest <= rig.near() {
+            &mut counts.nearer
+        } else if nearest >= rig.far() {
+            &mut counts.farther
+        } else {
+            &mut counts.between
+        };
+        *count += 1;
     }
 
     /// Texture coordinates in texels, moved by whole repeats to near zero.
@@ -199,7 +223,11 @@ impl<'a> Builder<'a> {
         let mut cut = false;
         if !corners.iter().all(inside) {
             cut = true;
-            corners = partition.clip(corners, &partition.depth_planes);
+            let kept = partition.clip(corners.clone(), &partition.depth_planes);
+            if kept.is_empty() {
+                return self.out_of_range(&corners);
+            }
+            corners = kept;
         }
         let mut points = partition.snap(&corners);
         if self.camera.is_level() && !points.iter().all(|p| self.in_band(p, Eye::Left, 1)) {
@@ -236,7 +264,8 @@ impl<'a> Builder<'a> {
             [false, true] => Eyes::One(Eye::Left),
             [true, false] => Eyes::One(Eye::Right),
             [true, true] => {
-                self.counts.culled += 1;
+                let edge_on = self.has_no_area(corners, points, &Eye::BOTH, surface.id);
+                self.counts.culled += usize::from(!edge_on);
                 return;
             }
         };
@@ -264,7 +293,7 @@ impl<'a> Builder<'a> {
             if points.is_empty() {
                 self.counts.outside += 1;
             } else if self.is_culled(&points, eye) {
-                culled += 1;
+                culled += usize::from(!self.has_no_area(&corners, &points, &[eye], surface.id));
             } else {
                 let base = Polygon {
                     id: surface.id,
@@ -296,13 +325,12 @@ impl<'a> Builder<'a> {
     }
 
     fn piece(&mut self, corners: &[Corner], points: &[Snapped], base: &Polygon) {
-        let eyes = || Eye::BOTH.into_iter().filter(|&eye| base.eyes.contains(eye));
-        if eyes().all(|eye| doubled_area(points, eye) == 0) {
-            self.counts.empty += 1;
-            self.counts.first_empty.get_or_insert(base.id);
+        let mut eyes = Eye::BOTH.to_vec();
+        eyes.retain(|&eye| base.eyes.contains(eye));
+        if self.has_no_area(corners, points, &eyes, base.id) {
             return;
         }
-        if eyes().all(|eye| self.is_outside(points, eye)) {
+        if eyes.iter().all(|&eye| self.is_outside(points, eye)) {
             self.counts.outside += 1;
             return;
         }
@@ -318,6 +346,40 @@ impl<'a> Builder<'a> {
         let opaque = polygon.vertices.iter().all(|v| v.colour[0].0[3] == 255)
             && !polygon.texture.is_some_and(shows_through);
         if opaque { &mut self.opaque } else { &mut self.translucent }.push(polygon);
+    }
+
+    /// Whether eyes see no area of a polygon; counts it if so.
+    fn has_no_area(
+        &mut self,
+        corners: &[Corner],
+        points: &[Snapped],
+        eyes: &[Eye],
+        id: u32,
+    ) -> bool {
+        if eyes.iter().any(|&eye| doubled_area(points, eye) != 0) {
+            return false;
+        }
+        let counts = &mut self.counts;
+        let at = |k: usize| corners[k].position;
+        let is_line = (2..corners.len()).all(|k| is_line(at(0), at(k - 1), at(k)));
+        let is_small = |numbers: [i64; 2]| numbers[1] - numbers[0] <= 1;
+        let range = |of: &dyn Fn(&Snapped) -> i64| {
+            let numbers = points.iter().map(of);
+            numbers.fold([i64::MAX, i64::MIN], |[least, most], n| [least.min(n), most.max(n)])
+        };
+        let is_point = |eye: &Eye| {
+            let eye = *eye as usize;
+            is_small(range(&|p| p.x[eye])) && is_small(range(&|p| p.y[eye]))
+        };
+        if is_line {
+            counts.empty += 1;
+            counts.first_empty.get_or_insert(id);
+        } else if eyes.iter().all(is_point) {
+            counts.small += 1;
+        } else {
+            counts.edge_on += 1;
+        }
+        true
     }
 
     /// Whether a polygon lies beside a view.
@@ -340,6 +402,28 @@ impl<'a> Builder<'a> {
             inverse: inverse.round_ties_even() as u32,
         }
     }
+}
+
+/// A polygon as it is if it is convex, else in triangles.
+fn convex_pieces(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
+    let places: Vec<Vec3> = corners.iter().map(|c| c.position).collect();
+    if is_convex_polygon(&places) {
+        return vec![corners];
+    }
+    let Cut { triangles, crossings } = cut(&places);
+    let crossing = |c: &Crossing| Corner {
+        position: c.between(c.edge.map(|k| places[k])),
+        ..Corner::default()
+    };
+    let all: Vec<Corner> = corners.iter().copied().chain(crossings.iter().map(crossing)).collect();
+    triangles.iter().map(|t| t.iter().map(|&k| all[k]).collect()).collect()
+}
+
+/// Whether three points lie on a line, or so nearly that the rest is rounding.
+fn is_line(a: Vec3, b: Vec3, c: Vec3) -> bool {
+    let square = |v: Vec3| dot(v, v);
+    let longest = [sub(b, a), sub(c, a), sub(c, b)].map(square).into_iter().fold(0.0, f64::max);
+    square(outward(a, b, c)) <= 1e-24 * longest * longest
 }
 
 /// Twice the area of a polygon as an eye sees it, positive if counter-clockwise.

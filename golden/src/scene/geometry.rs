@@ -41,7 +41,7 @@ impl Default for Options {
 pub struct Counts {
     /// Triangles in the meshes.
     pub triangles: usize,
-    /// Convex polygons in the meshes.
+    /// Polygons in the meshes.
     pub faces: usize,
     /// Polygons made.
     pub polygons: usize,
@@ -54,30 +54,77 @@ pub struct Counts {
     pub culled: usize,
     /// Triangles and faces culled for one eye.
     pub half_culled: usize,
-    /// Triangles, faces and pieces of them outside the windows, or behind the near or far plane.
+    /// Triangles and faces behind the eyes.
+    pub behind: usize,
+    /// Triangles and faces before the eyes, but nearer than what the rig draws.
+    pub nearer: usize,
+    /// Triangles and faces farther than what the rig draws.
+    pub farther: usize,
+    /// Triangles and faces at distances that no partition of a piecewise projection draws.
+    pub between: usize,
+    /// Triangles, faces and pieces of them beside, above or below the windows.
     pub outside: usize,
     /// Triangles, faces and pieces of them without area.
     pub empty: usize,
     /// Id of the first of those.
     pub first_empty: Option<u32>,
+    /// Triangles, faces and pieces of them that have an area, but none as the eyes see them: edge-on,
+    /// or too thin.
+    pub edge_on: usize,
+    /// Triangles, faces and pieces of them that are no larger than a subpixel.
+    pub small: usize,
+}
+
+impl Counts {
+    /// How many are left out for which reason, and what helps.
+    fn reasons(&self) -> [(usize, String, &'static str); 9] {
+        const MOVE: &str = "move it, or change near and far, with a rig file";
+        let empty = match self.first_empty {
+            Some(id) => format!("without area (polygon {id} is the first)"),
+            None => "without area".into(),
+        };
+        [
+            (self.empty, empty, "give it corners that do not lie on a line"),
+            (self.edge_on, "seen edge-on".into(), "turn it with a rig file"),
+            (self.small, "smaller than a subpixel".into(), "enlarge it with a rig file"),
+            (self.behind, "behind the eyes".into(), MOVE),
+            (self.nearer, "nearer than the rig's near plane".into(), MOVE),
+            (self.farther, "farther than the rig's far plane".into(), MOVE),
+            (self.between, "at distances of no partition".into(), MOVE),
+            (self.outside, "outside the views".into(), "move it, or fit it, with a rig file"),
+            (self.culled, "culled for both eyes".into(), "leave out --cull back"),
+        ]
+    }
+
+    /// Why nothing is drawn, and what helps against the reason that most polygons have; none if
+    /// something is.
+    pub fn nothing(&self) -> Option<String> {
+        if self.polygons > 0 {
+            return None;
+        }
+        let reasons = self.reasons();
+        let Some((_, _, help)) = reasons.iter().rev().max_by_key(|(count, ..)| *count) else {
+            return None;
+        };
+        let whole = self.triangles + self.faces;
+        if whole == 0 {
+            return Some("there is no triangle and no face".into());
+        }
+        Some(format!("{self}; try: {help}"))
+    }
 }
 
 impl fmt::Display for Counts {
     /// What is not drawn, and why; nothing where all is.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let empty = match self.first_empty {
-            Some(id) => format!("without area (triangle {id} is the first)"),
-            None => "without area".into(),
-        };
-        let parts = [
-            (self.empty, empty.as_str()),
-            (self.outside, "outside the views"),
-            (self.culled, "culled for both eyes"),
-            (self.half_culled, "culled for one eye"),
-        ];
-        let some = parts.iter().filter(|(count, _)| *count > 0);
-        let some: Vec<String> = some.map(|(count, what)| format!("{count} {what}")).collect();
-        f.write_str(&some.join(", "))
+        let mut parts: Vec<String> = Vec::new();
+        let half = (self.half_culled, "culled for one eye".to_owned(), "");
+        for (count, reason, _) in self.reasons().into_iter().chain([half]) {
+            if count > 0 {
+                parts.push(format!("{count} {reason}"));
+            }
+        }
+        f.write_str(&parts.join(", "))
     }
 }
 

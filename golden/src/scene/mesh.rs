@@ -1,5 +1,6 @@
 //! Triangles and convex polygons, their attributes, and normals where there are none.
 
+use super::cut::{cut, Crossing, Cut};
 use super::error::{SceneError, COORDINATE_LIMIT};
 use super::vector::{add, dot, outward, unit, Vec3};
 use crate::setup::MAX_VERTICES;
@@ -7,6 +8,9 @@ use std::collections::HashMap;
 
 /// Largest texture coordinate, in repeats of the texture.
 pub const REPEAT_LIMIT: f64 = 1024.0;
+
+/// Most triangles round a vertex of which each pair is compared.
+const CROWD: usize = 64;
 
 /// Base colours of a mesh.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -103,6 +107,37 @@ impl Mesh {
         Ok(())
     }
 
+    /// Adds a polygon of any shape, cut into triangles of this id; where its outline crosses itself, it
+    /// gets vertices of its own.
+    pub fn push_face(&mut self, face: &[u32], id: u32) {
+        let corners: Vec<Vec3> = face.iter().map(|&v| self.positions[v as usize]).collect();
+        let Cut { triangles, crossings } = cut(&corners);
+        let mut vertices = face.to_vec();
+        for crossing in crossings {
+            vertices.push(self.positions.len() as u32);
+            self.push_between(&crossing, crossing.edge.map(|k| face[k] as usize));
+        }
+        self.triangle_ids.extend(std::iter::repeat_n(id, triangles.len()));
+        self.triangles.extend(triangles.iter().map(|t| t.map(|k| vertices[k])));
+    }
+
+    /// Adds a vertex between two others.
+    fn push_between(&mut self, crossing: &Crossing, ends: [usize; 2]) {
+        let position = crossing.between(ends.map(|v| self.positions[v]));
+        self.positions.push(position);
+        if !self.normals.is_empty() {
+            self.normals.push(unit(crossing.between(ends.map(|v| self.normals[v]))));
+        }
+        let texture = &mut self.texture_coordinates;
+        if !texture.is_empty() {
+            texture.push(crossing.between(ends.map(|v| texture[v])));
+        }
+        if let Colours::Vertex(colours) = &mut self.colours {
+            let colour = crossing.between(ends.map(|v| colours[v].map(f64::from)));
+            colours.push(colour.map(|n| n.round_ties_even() as u8));
+        }
+    }
+
     /// Gives every corner the mean outward normal of the triangles around it, weighted by area,
     /// that meet its own at an angle whose cosine is at least `crease`.
     ///
@@ -127,13 +162,19 @@ impl Mesh {
         };
         let areas: Vec<Vec3> = self.triangles.iter().map(area).collect();
         let units: Vec<Vec3> = areas.iter().map(|&n| unit(n)).collect();
+        let mean = |some: &mut dyn Iterator<Item = &u32>| {
+            unit(some.fold([0.0; 3], |sum, &m| add(sum, areas[m as usize])))
+        };
+        // Where very many meet, at the pole of a sphere, all count: it would take too long.
+        let common: Vec<Option<Vec3>> = around
+            .iter()
+            .map(|here| (here.len() > CROWD).then(|| mean(&mut here.iter())))
+            .collect();
         let normal = |vertex: u32, n: usize| {
-            let here = &around[place_of[vertex as usize]];
-            // Where very many meet, at the pole of a sphere, all count: it would take too long.
-            let together = |&&m: &&u32| {
-                here.len() > 64 || dot(units[n], units[m as usize]) >= crease || m as usize == n
-            };
-            unit(here.iter().filter(together).fold([0.0; 3], |sum, &m| add(sum, areas[m as usize])))
+            let place = place_of[vertex as usize];
+            let together =
+                |&&m: &&u32| dot(units[n], units[m as usize]) >= crease || m as usize == n;
+            common[place].unwrap_or_else(|| mean(&mut around[place].iter().filter(together)))
         };
         let corners: Vec<[Vec3; 3]> =
             self.triangles.iter().enumerate().map(|(n, t)| t.map(|v| normal(v, n))).collect();

@@ -17,6 +17,7 @@ mod builder;
 pub mod builtin;
 mod camera;
 pub mod clip;
+pub mod cut;
 mod error;
 mod extent;
 mod geometry;

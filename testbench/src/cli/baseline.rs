@@ -40,6 +40,7 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
     let spinner = Spinner::new();
     let measure = |name: &str, scene: &Scene| -> Result<Row, Failure> {
         let geometry = scene.geometry(&Formats::new(&settings.config), &Default::default())?;
+        let geometry = drawn(name, geometry)?;
         let row = pipelines.measure(name, &job(&settings, &geometry, settings.options))?;
         spinner.tell(name, &format!("ratio {:.3}", row.clocks()));
         Ok(row)

@@ -27,19 +27,26 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     }
     let name = args.common.view.scene.as_deref().unwrap_or("room");
     let scene = args.common.open(name, args.common.view.size)?;
+<<<<<<< HEAD
     let geometry = args.common.geometry_of(&scene, &settings)?;
     let set = args.out.as_deref().map(Set::new).transpose()?;
+=======
+    let geometry = drawn(name, args.common.geometry_of(&scene, &settings)?)?;
+    if let Some(out) = &args.out {
+        std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;
+    }
+>>>>>>> 8c157af (Cut faces that are not convex on their plane)
     let prepared = Prepared::of(scene, geometry, settings.config, options, settings.lookup);
     let spinner = Spinner::new();
     let tell = |method: &Method| spinner.tell(method.name, method.description);
     let outcomes = compare(&prepared, set.as_ref().map(Set::path), tell);
     drop(spinner);
     let outcomes = outcomes?;
-    let Geometry { width, height, polygons: drawn, .. } = &prepared.geometry;
+    let Geometry { width, height, polygons: pieces, .. } = &prepared.geometry;
     let meshes = &prepared.scene.meshes;
     let polygons: usize = meshes.iter().map(|mesh| mesh.id_count()).sum();
     let triangles: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
-    let [a, b, c] = [polygons, triangles, drawn.len()].map(|n| Grouped(n as u64));
+    let [a, b, c] = [polygons, triangles, pieces.len()].map(|n| Grouped(n as u64));
     say!("{name}, {width}x{height}: the second view of {a} polygons in {b} triangles, {c} drawn");
     say!("{}", table(&outcomes));
     say!("time: of the second view, direct rendering's is 1; that of SAM is its golden model's");
@@ -60,7 +67,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
             "height": height,
             "polygons": polygons,
             "triangles": triangles,
-            "drawn": drawn.len(),
+            "drawn": pieces.len(),
             "methods": json(&outcomes),
         });
         files::write(file, format!("{content:#}\n").as_bytes())?;

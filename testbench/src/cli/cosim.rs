@@ -104,6 +104,7 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     say!("{}", regression::table(&entries).trim_end());
     let command = command_line(arguments.iter().map(String::as_str));
     let mut errors: Vec<String> = entries.iter().filter_map(unshown).collect();
+    errors.extend(entries.iter().filter_map(uncompared));
     errors.extend(write(args, &entries, &command, &out).err().map(|error| error.to_string()));
     let mut failures = entries.iter().filter_map(|e| e.failure.as_ref()).peekable();
     let status = match (failures.peek(), errors.is_empty()) {
@@ -114,6 +115,13 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     failures.for_each(|failure| say!("\nMISMATCH\n{failure}"));
     errors.iter().for_each(|error| tell!("error: {error}"));
     Ok(status)
+}
+
+/// Says of a case without a difference that nothing in it could differ.
+fn uncompared(entry: &Entry) -> Option<String> {
+    let nothing = entry.compared == 0 && entry.failure.is_none();
+    let what = || format!("{} {}: nothing was compared", entry.target.name(), entry.name);
+    nothing.then(what)
 }
 
 /// Why waveforms that were asked for are not there.

@@ -272,14 +272,14 @@ impl Common {
         Ok(if self.wire { wire_frame(&scene)? } else { scene })
     }
 
-    /// The polygons of the scene of that name.
+    /// The polygons of the scene of that name; an error if there are none.
     fn geometry(
         &self,
         name: &str,
         size: Option<[u32; 2]>,
         settings: &Settings,
     ) -> Result<Geometry, Failure> {
-        self.geometry_of(&self.open(name, size)?, settings)
+        drawn(name, self.geometry_of(&self.open(name, size)?, settings)?)
     }
 
     /// The polygons of a scene for these settings.
@@ -289,12 +289,7 @@ impl Common {
             CullChoice::Back => Cull::Back,
         };
         let options = scene::Options { cull, specular_threshold: settings.specular_threshold };
-        let geometry = scene.geometry(&Formats::new(&settings.config), &options)?;
-        if geometry.polygons.is_empty() {
-            let [near, far] = [scene.rig.near(), scene.rig.far()];
-            tell!("warning: nothing to draw: nothing of the scene can be seen at distances from {near} to {far}");
-        }
-        Ok(geometry)
+        Ok(scene.geometry(&Formats::new(&settings.config), &options)?)
     }
 
     /// The options as words of a command line.
@@ -441,6 +436,14 @@ fn update_record(change: impl FnOnce(&mut Record)) -> Result<(), Failure> {
     record.write(&root)?;
     say!("{}: written; now run: wheatstone generate", verification::FILE);
     Ok(())
+}
+
+/// The polygons of the scene of that name, for commands to which nothing is no result.
+fn drawn(name: &str, geometry: Geometry) -> Result<Geometry, Failure> {
+    match geometry.counts.nothing() {
+        Some(reason) => Err(Failure::Input(format!("{name}: nothing to draw: {reason}"))),
+        None => Ok(geometry),
+    }
 }
 
 /// The job that draws a scene's polygons.

@@ -57,6 +57,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     let name = args.common.view.scene.as_deref().unwrap_or("teapot");
     let scene = args.common.open(name, args.common.view.size)?;
     let geometry = args.common.geometry_of(&scene, &settings)?;
+    if let Some(reason) = geometry.counts.nothing() {
+        tell!("warning: {name}: nothing to draw: {reason}");
+    }
     // Before the work, so that a folder that cannot be made costs none.
     let set = Set::new(&args.out)?;
     let mut files = Vec::new();
