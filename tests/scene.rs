@@ -3,6 +3,7 @@
 use std::path::Path;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::{Eye, Formats, DEPTH_MAX};
+use wheatstone_golden::projection::{Partition, Piecewise, Projection};
 use wheatstone_golden::scene::builtin::scene as builtin;
 use wheatstone_golden::scene::vector::Vec3;
 use wheatstone_golden::scene::{
@@ -169,7 +170,7 @@ fn the_near_plane_cuts_what_passes_it() {
     let cut: Vec<&Polygon> = geometry.polygons.iter().filter(|p| p.id == 1).collect();
     assert!(cut.len() >= 2, "{}", cut.len());
     assert!(geometry.polygons.iter().all(|p| p.id <= 1));
-    assert_eq!((geometry.counts.clipped, geometry.counts.outside), (1, 1));
+    assert_eq!((geometry.counts.clipped, geometry.counts.behind), (1, 1));
     let bottom = cut.iter().flat_map(|p| &p.vertices).map(|v| v.y[0]).max();
     // Cut off at the lower edge of the guard band.
     assert_eq!(bottom, Some((480 + 1024) * 256));
@@ -311,7 +312,86 @@ fn culling_decides_for_each_eye() {
     let culled = scene.geometry(&WIDE, &options).expect("legal");
     let seen: Vec<(u32, Eyes)> = culled.polygons.iter().map(|p| (p.id, p.eyes)).collect();
     assert_eq!(seen, [(0, Eyes::Both), (3, Eyes::One(Eye::Left))]);
-    assert_eq!((culled.counts.culled, culled.counts.half_culled), (2, 1));
+    assert_eq!((culled.counts.culled, culled.counts.half_culled), (1, 1));
+    assert_eq!(culled.counts.empty, 1);
+}
+
+#[test]
+fn where_nothing_is_drawn_the_counts_say_why() {
+    let (d, far) = (640.0, 64_000.0);
+    let at = |z: f64| [[0.0, 0.0, z], [10.0, 0.0, z], [0.0, 10.0, z]];
+    let moved = |x: f64| at(0.0).map(|p| [p[0] + x, p[1], p[2]]);
+    let cases = [
+        ("1 behind the eyes", at(-d - 1.0)),
+        ("1 nearer than the rig's near plane", at(-d + 1.0)),
+        ("1 farther than the rig's far plane", at(far)),
+        ("1 outside the views", moved(1000.0)),
+        ("1 without area (polygon 0 is the first)", [[1.0, 2.0, 3.0]; 3]),
+        ("1 without area (polygon 0 is the first)", [1.0, 3.0, 7.0].map(|n| [n, n, 0.0])),
+        ("1 seen edge-on", [[-10.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 0.0, 10.0]]),
+        ("1 smaller than a subpixel", at(0.0).map(|p| p.map(|n| n / 1e6))),
+    ];
+    for (reason, positions) in cases {
+        let counts = geometry(&triangles(positions.to_vec(), rig(1.0, 64.0, d))).counts;
+        assert_eq!(counts.to_string(), reason);
+        let said = counts.nothing().unwrap_or_default();
+        assert!(said.starts_with(reason) && said.contains("; try: "), "{said}");
+    }
+    // Both reasons, the help against the more frequent one.
+    let mut clockwise = at(0.0);
+    clockwise.swap(1, 2);
+    let positions = [clockwise, at(far), clockwise].concat();
+    let scene = triangles(positions, rig(1.0, 64.0, d));
+    let options = Options { cull: Cull::Back, ..Options::default() };
+    let counts = scene.geometry(&WIDE, &options).expect("legal").counts;
+    let expected = "1 farther than the rig's far plane, 2 culled for both eyes";
+    assert_eq!(
+        counts.nothing().as_deref(),
+        Some(&*format!("{expected}; try: leave out --cull back"))
+    );
+    assert_eq!(geometry(&scene).counts.nothing(), None);
+    let nothing = geometry(&triangles(Vec::new(), rig(1.0, 64.0, d))).counts.nothing();
+    assert_eq!(nothing.as_deref(), Some("there is no triangle and no face"));
+    // Between two partitions.
+    let mut scene = triangles(at(50.0).to_vec(), rig(1.0, 64.0, d));
+    let gap = [(300.0, 650.0), (700.0, 900.0)].map(|(near, far)| Partition {
+        near,
+        far,
+        min_distance: near,
+        max_distance: far,
+    });
+    scene.rig.projection =
+        Projection::Piecewise(Piecewise { partitions: gap.to_vec(), ..Piecewise::default() });
+    assert_eq!(geometry(&scene).counts.to_string(), "1 at distances of no partition");
+}
+
+#[test]
+fn a_face_that_is_not_convex_is_cut() {
+    // An L, from each of its corners.
+    let outline = [[0, 0], [20, 0], [20, 10], [10, 10], [10, 20], [0, 20]];
+    let covered = |first: usize, faces: bool| {
+        let positions = outline.iter().map(|p| [f64::from(p[0]), f64::from(p[1]), 0.0]).collect();
+        let mut scene = triangles(positions, rig(1.0, 64.0, 640.0));
+        let mesh = &mut scene.meshes[0];
+        mesh.triangles.clear();
+        let mut face: Vec<u32> = (0..6).collect();
+        face.rotate_left(first);
+        if faces {
+            mesh.faces = vec![face];
+        } else {
+            mesh.push_face(&face, 0);
+        }
+        let seen = geometry(&scene);
+        assert!(seen.polygons.iter().all(|p| p.id == 0));
+        let pieces: Vec<i64> = seen.polygons.iter().map(|p| area(p, Eye::Left)).collect();
+        assert!(pieces.iter().all(|&area| area > 0), "{first}: {pieces:?}");
+        pieces.iter().sum::<i64>()
+    };
+    for first in 0..6 {
+        for faces in [false, true] {
+            assert_eq!(covered(first, faces), 2 * 300 * 256 * 256);
+        }
+    }
 }
 
 #[test]

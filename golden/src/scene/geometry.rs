@@ -103,9 +103,7 @@ impl Counts {
             return None;
         }
         let reasons = self.reasons();
-        let Some((_, _, help)) = reasons.iter().rev().max_by_key(|(count, ..)| *count) else {
-            return None;
-        };
+        let (_, _, help) = reasons.iter().rev().max_by_key(|(count, ..)| *count)?;
         let whole = self.triangles + self.faces;
         if whole == 0 {
             return Some("there is no triangle and no face".into());

@@ -295,6 +295,46 @@ mod tests {
     }
 
     #[test]
+    fn where_very_many_meet_all_count() {
+        // Each compared with each would be ten milliards.
+        let count = 100_000;
+        let rim = |k: u32| {
+            let [x, y] = super::super::vector::turn(f64::from(k) / f64::from(count));
+            [x, y, 1.0]
+        };
+        let mut mesh = Mesh {
+            positions: (0..count).map(rim).chain([[0.0; 3]]).collect(),
+            triangles: (0..count).map(|k| [count, k, (k + 1) % count]).collect(),
+            ..Mesh::default()
+        };
+        mesh.crease_normals(0.5);
+        // One normal at the tip, though its triangles lie at right angles.
+        assert_eq!(mesh.positions.len(), count as usize + 1);
+        assert!(dot(mesh.normals[count as usize], [0.0, 0.0, -1.0]) > 0.999);
+    }
+
+    #[test]
+    fn a_crossing_gets_a_vertex_between_its_neighbours() {
+        let corners = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
+        let mut mesh = Mesh {
+            positions: corners.iter().map(|c| [c[0], c[1], 5.0]).collect(),
+            normals: vec![[1.0, 0.0, 0.0]; 4],
+            texture_coordinates: corners.to_vec(),
+            colours: Colours::Vertex(corners.iter().map(|c| [100 * c[0] as u8; 3]).collect()),
+            ..Mesh::default()
+        };
+        mesh.push_face(&[0, 1, 2, 3], 7);
+        assert!(mesh.check(0, true).is_ok());
+        assert_eq!((mesh.triangles.len(), &mesh.triangle_ids[..]), (2, &[7, 7][..]));
+        let near = |found: &[f64]| found.iter().all(|n| (n - 1.0).abs() < 1e-6);
+        let [x, y, z] = mesh.positions[4];
+        assert!(near(&[x, y, z / 5.0]), "{:?}", mesh.positions[4]);
+        assert!(near(&mesh.texture_coordinates[4]));
+        assert_eq!(mesh.normals[4], [1.0, 0.0, 0.0]);
+        assert!(matches!(&mesh.colours, Colours::Vertex(colours) if colours[4] == [100; 3]));
+    }
+
+    #[test]
     fn contradictions_are_refused() {
         let refused = |change: fn(&mut Mesh), lit, text: &str| {
             let mut mesh = square();

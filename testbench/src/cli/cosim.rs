@@ -117,11 +117,10 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     Ok(status)
 }
 
-/// Says of a case without a difference that nothing in it could differ.
+/// Says of a case that nothing in it was compared.
 fn uncompared(entry: &Entry) -> Option<String> {
-    let nothing = entry.compared == 0 && entry.failure.is_none();
     let what = || format!("{} {}: nothing was compared", entry.target.name(), entry.name);
-    nothing.then(what)
+    entry.is_vain().then(what)
 }
 
 /// Why waveforms that were asked for are not there.

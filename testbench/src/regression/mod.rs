@@ -343,9 +343,14 @@ impl Entry {
         }
     }
 
-    /// Whether everything was compared and equal.
+    /// Whether all that was compared is equal.
     pub fn passed(&self) -> bool {
         self.failure.is_none()
+    }
+
+    /// Whether there was nothing that could have differed, which is no pass.
+    pub fn is_vain(&self) -> bool {
+        self.passed() && self.compared == 0
     }
 
     /// Counts a run.

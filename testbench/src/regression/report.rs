@@ -185,6 +185,11 @@ pub fn junit(entries: &[Entry]) -> Result<String, quick_junit::SerializeError> {
     let mut suites: Vec<TestSuite> = Vec::new();
     for entry in entries {
         let status = match &entry.failure {
+            None if entry.is_vain() => {
+                let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+                status.set_message("nothing was compared");
+                status
+            }
             None => TestCaseStatus::success(),
             Some(failure) => {
                 let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
@@ -225,7 +230,10 @@ mod tests {
         let counts = [0, 1, 2, 12_345].map(|n| counted(n, "beat"));
         assert_eq!(counts, ["0 beats", "1 beat", "2 beats", "12,345 beats"]);
         let mut entry = Entry::new(Target::Display, "random");
+        assert!(junit(&[Entry::new(Target::Display, "random")])
+            .is_ok_and(|xml| xml.contains("errors=\"1\"") && xml.contains("nothing was compared")));
         entry.compared = 1;
+        assert!(!entry.is_vain());
         let text = table(&[entry]);
         assert!(text.ends_with("1 case, 1 beat and 0 pixels compared, mismatches 0\n"), "{text}");
         let drawn = Drawn { polygons: 1, ..Drawn::default() };
