@@ -176,3 +176,43 @@ fn what_a_projection_leaves_out_is_told_by_every_command_that_draws() {
     assert_eq!(nothing.status.code(), Some(0));
     assert!(!err(&nothing).contains("warning"), "all of the room lies in partitions");
 }
+
+#[test]
+fn what_places_a_mesh_too_far_away_is_named_with_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    for (text, field) in [
+        ("{\n\"pixels_per_unit\": 1e-9}", "2: pixels_per_unit"),
+        ("{\"placement\": {\"fit\": null,\n\"offset\": [1e9, 0, 0]}}", "2: placement.offset"),
+    ] {
+        fs::write(folder.path().join("rig.json"), text).unwrap();
+        let output = run(folder.path(), "render --scene a.obj --rig rig.json --out drawn");
+        let expected = format!("error: rig.json:{field}: expected what puts no coordinate");
+        assert!(err(&output).starts_with(&expected), "{}", err(&output));
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
+
+#[test]
+fn nothing_drawn_is_a_warning_of_pictures_and_an_error_of_comparisons() {
+    let folder = tempfile::tempdir().unwrap();
+    let floor = "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 1 4 3 2\n";
+    fs::write(folder.path().join("floor.obj"), floor).unwrap();
+    let said = "floor.obj: nothing to draw: 2 seen edge-on; try: turn it with a rig file";
+    let output = run(folder.path(), "render --scene floor.obj --size 40x30 --out drawn");
+    assert!(err(&output).contains(&format!("warning: {said}\n")), "{}", err(&output));
+    assert!(output.status.success() && folder.path().join("drawn/left.png").exists());
+    let rtl = Path::new(env!("CARGO_MANIFEST_DIR")).join("../rtl");
+    let rtl = rtl.display();
+    for command in [
+        format!("cosim hybrid --rtl {rtl}"),
+        format!("vectors hybrid --out packs --rtl {rtl}"),
+        format!("waves hybrid --rtl {rtl}"),
+        "compare".into(),
+        format!("baseline --rtl {rtl}"),
+    ] {
+        let output = run(folder.path(), &format!("{command} --scene floor.obj"));
+        assert_eq!(err(&output), format!("error: {said}\n"), "{command}");
+        assert_eq!(output.status.code(), Some(2), "{command}");
+    }
+}

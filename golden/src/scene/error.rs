@@ -72,7 +72,7 @@ pub struct RigError {
 }
 
 /// A number with an exponent where it would be long without.
-fn shown(n: f64) -> String {
+pub(super) fn shown(n: f64) -> String {
     let short = n == 0.0 || !n.is_finite() || (1e-9..1e15).contains(&n.abs());
     if short {
         n.to_string()

@@ -1,6 +1,5 @@
-//! Triangles and convex polygons, their attributes, and normals where there are none.
+//! Triangles and polygons, their attributes, and normals where there are none.
 
-use super::cut::{cut, Crossing, Cut};
 use super::error::{SceneError, COORDINATE_LIMIT};
 use super::vector::{add, dot, outward, unit, Vec3};
 use crate::setup::MAX_VERTICES;
@@ -24,7 +23,7 @@ pub enum Colours {
     Face(Vec<[u8; 3]>),
 }
 
-/// Triangles and convex polygons of one material.
+/// Triangles and polygons of one material.
 ///
 /// Front faces are counter-clockwise as seen.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,7 +42,8 @@ pub struct Mesh {
     /// Which of the mesh's polygons each triangle is a part of, from 0; empty where each is one
     /// of its own. Decides the ids.
     pub triangle_ids: Vec<u32>,
-    /// Vertices of convex planar polygons of 3 to 6 corners, flat shaded, without texture.
+    /// Vertices of planar polygons of 3 to 6 corners, flat shaded, without texture. Those that are not
+    /// convex are drawn in triangles.
     pub faces: Vec<Vec<u32>>,
     /// Index of the material in the scene.
     pub material: u32,
@@ -105,37 +105,6 @@ impl Mesh {
             return wrong("faces", format!("not of 3 to {MAX_VERTICES} corners"));
         }
         Ok(())
-    }
-
-    /// Adds a polygon of any shape, cut into triangles of this id; where its outline crosses itself, it
-    /// gets vertices of its own.
-    pub fn push_face(&mut self, face: &[u32], id: u32) {
-        let corners: Vec<Vec3> = face.iter().map(|&v| self.positions[v as usize]).collect();
-        let Cut { triangles, crossings } = cut(&corners);
-        let mut vertices = face.to_vec();
-        for crossing in crossings {
-            vertices.push(self.positions.len() as u32);
-            self.push_between(&crossing, crossing.edge.map(|k| face[k] as usize));
-        }
-        self.triangle_ids.extend(std::iter::repeat_n(id, triangles.len()));
-        self.triangles.extend(triangles.iter().map(|t| t.map(|k| vertices[k])));
-    }
-
-    /// Adds a vertex between two others.
-    fn push_between(&mut self, crossing: &Crossing, ends: [usize; 2]) {
-        let position = crossing.between(ends.map(|v| self.positions[v]));
-        self.positions.push(position);
-        if !self.normals.is_empty() {
-            self.normals.push(unit(crossing.between(ends.map(|v| self.normals[v]))));
-        }
-        let texture = &mut self.texture_coordinates;
-        if !texture.is_empty() {
-            texture.push(crossing.between(ends.map(|v| texture[v])));
-        }
-        if let Colours::Vertex(colours) = &mut self.colours {
-            let colour = crossing.between(ends.map(|v| colours[v].map(f64::from)));
-            colours.push(colour.map(|n| n.round_ties_even() as u8));
-        }
     }
 
     /// Gives every corner the mean outward normal of the triangles around it, weighted by area,
@@ -311,27 +280,6 @@ mod tests {
         // One normal at the tip, though its triangles lie at right angles.
         assert_eq!(mesh.positions.len(), count as usize + 1);
         assert!(dot(mesh.normals[count as usize], [0.0, 0.0, -1.0]) > 0.999);
-    }
-
-    #[test]
-    fn a_crossing_gets_a_vertex_between_its_neighbours() {
-        let corners = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
-        let mut mesh = Mesh {
-            positions: corners.iter().map(|c| [c[0], c[1], 5.0]).collect(),
-            normals: vec![[1.0, 0.0, 0.0]; 4],
-            texture_coordinates: corners.to_vec(),
-            colours: Colours::Vertex(corners.iter().map(|c| [100 * c[0] as u8; 3]).collect()),
-            ..Mesh::default()
-        };
-        mesh.push_face(&[0, 1, 2, 3], 7);
-        assert!(mesh.check(0, true).is_ok());
-        assert_eq!((mesh.triangles.len(), &mesh.triangle_ids[..]), (2, &[7, 7][..]));
-        let near = |found: &[f64]| found.iter().all(|n| (n - 1.0).abs() < 1e-6);
-        let [x, y, z] = mesh.positions[4];
-        assert!(near(&[x, y, z / 5.0]), "{:?}", mesh.positions[4]);
-        assert!(near(&mesh.texture_coordinates[4]));
-        assert_eq!(mesh.normals[4], [1.0, 0.0, 0.0]);
-        assert!(matches!(&mesh.colours, Colours::Vertex(colours) if colours[4] == [100; 3]));
     }
 
     #[test]

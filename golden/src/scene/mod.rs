@@ -119,7 +119,8 @@ pub fn open_projected(
         Some("obj") => {
             let mut empty = obj::empty_scene();
             rig_file.apply(&mut empty, size, projection)?;
-            return obj::load(path, empty, &rig_file.placement());
+            let scene = obj::load(path, empty, &rig_file.placement())?;
+            return rig_file.check_placed(&scene).map(|()| scene);
         }
         Some("json") => json::load(path)?,
         Some(e) if height_field::is_grid(e) => {
@@ -148,5 +149,6 @@ fn field(
     let [width, height] = DEFAULT_SIZE;
     let mut empty = height_field::empty_scene(width, height);
     rig_file.apply(&mut empty, size, projection)?;
-    Ok(height_field::scene(grid, empty, &rig_file.placement()))
+    let scene = height_field::scene(grid, empty, &rig_file.placement());
+    rig_file.check_placed(&scene).map(|()| scene)
 }

@@ -49,7 +49,9 @@
 //! `colour` (default `[0.8, 0.8, 0.8]`; 1 is white) and the `ambient` light (default
 //! `[0.25, 0.25, 0.25]`). What is not given takes its default, and all other lights go.
 
-use super::error::{check_size, InputError, RigError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT};
+use super::error::{
+    check_size, shown, InputError, RigError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT,
+};
 use super::json::{parse, Channel};
 use super::light::{Light, Lighting, Source};
 use super::locate::Locator;
@@ -239,6 +241,23 @@ impl RigFile {
 }
 
 impl RigFile {
+    /// Refuses a scene that was placed so far away that it cannot be drawn, which is this file's doing.
+    pub(super) fn check_placed(&self, scene: &Scene) -> Result<(), SceneError> {
+        let mut coordinates = scene.meshes.iter().flat_map(|mesh| mesh.positions.iter().flatten());
+        if coordinates.all(|n| n.abs() <= COORDINATE_LIMIT) {
+            return Ok(());
+        }
+        let Placement { fit, offset, .. } = &self.placement;
+        let (field, found) = match (fit, self.pixels_per_unit) {
+            (None | Some(Some(_)), Some(n)) => ("pixels_per_unit", shown(n)),
+            (Some(Some(fit)), None) if *offset == [0.0; 3] => ("placement.fit", fit.to_string()),
+            _ => ("placement.offset", format!("{offset:?}")),
+        };
+        let limit = COORDINATE_LIMIT;
+        let expected = format!("what puts no coordinate of the mesh beyond {limit:e}");
+        Err(self.wrong(field, &expected, found).into())
+    }
+
     /// Gives a rig the projection of `kind`, or else the file's, with the file's parameters.
     fn project(&self, rig: &mut Rig, kind: Option<Kind>) -> Result<(), RigError> {
         let Some(kind) = kind.or(self.projection) else { return Ok(()) };

@@ -35,12 +35,16 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
     let settings = Settings::new::<&str>(&args.config, &[])?;
     // First, as models take a while to build.
     let scenes = scenes(args)?;
+    let polygons =
+        |scene: &Scene| scene.geometry(&Formats::new(&settings.config), &Default::default());
+    for (name, scene) in scenes.iter().filter(|_| args.scene.is_some()) {
+        drawn(name, polygons(scene)?)?;
+    }
     let builder = builder(is_terminal())?;
     let pipelines = Baseline::new(&builder, &rtl_folder(&args.rtl)?, &settings.config)?;
     let spinner = Spinner::new();
     let measure = |name: &str, scene: &Scene| -> Result<Row, Failure> {
-        let geometry = scene.geometry(&Formats::new(&settings.config), &Default::default())?;
-        let geometry = drawn(name, geometry)?;
+        let geometry = polygons(scene)?;
         let row = pipelines.measure(name, &job(&settings, &geometry, settings.options))?;
         spinner.tell(name, &format!("ratio {:.3}", row.clocks()));
         Ok(row)

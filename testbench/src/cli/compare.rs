@@ -27,15 +27,8 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     }
     let name = args.common.view.scene.as_deref().unwrap_or("room");
     let scene = args.common.open(name, args.common.view.size)?;
-<<<<<<< HEAD
-    let geometry = args.common.geometry_of(&scene, &settings)?;
-    let set = args.out.as_deref().map(Set::new).transpose()?;
-=======
     let geometry = drawn(name, args.common.geometry_of(&scene, &settings)?)?;
-    if let Some(out) = &args.out {
-        std::fs::create_dir_all(out).map_err(|source| WriteError { file: out.clone(), source })?;
-    }
->>>>>>> 8c157af (Cut faces that are not convex on their plane)
+    let set = args.out.as_deref().map(Set::new).transpose()?;
     let prepared = Prepared::of(scene, geometry, settings.config, options, settings.lookup);
     let spinner = Spinner::new();
     let tell = |method: &Method| spinner.tell(method.name, method.description);

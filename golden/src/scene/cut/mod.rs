@@ -60,7 +60,7 @@ impl Crossing {
     }
 }
 
-/// Cuts a polygon of corners with finite coordinates.
+/// Cuts a polygon of corners with finite coordinates; three or more make a triangle at least.
 pub fn cut(corners: &[Vec3]) -> Cut {
     if corners.len() <= 3 {
         return fan(corners.len(), 0);
@@ -211,12 +211,12 @@ impl Outline {
         Outline { points, corners, count: order.len() }
     }
 
-    /// Its triangles; none if it is a tangle.
+    /// Its triangles; none if it is a tangle or has no area on the grid.
     fn cut(mut self) -> Option<Cut> {
         let mut triangulator = IntTriangulator::<i32, u32>::default();
         triangulator.delaunay = true;
         let found = if self.points.len() < 3 {
-            return Some(Cut::default());
+            return None;
         } else if simple::is_simple(&self.points) {
             if doubled_area(&self.points) < 0 {
                 self.points.reverse();
@@ -228,6 +228,9 @@ impl Outline {
         } else {
             return None;
         };
+        if found.indices.is_empty() {
+            return None;
+        }
         let mut known: HashMap<[i32; 2], usize> = HashMap::new();
         for (point, &corner) in self.points.iter().zip(&self.corners) {
             known.entry([point.x, point.y]).or_insert(corner);

@@ -1,5 +1,6 @@
 //! Meshes of the faces of an OBJ file: cut into triangles, with normals at all corners.
 
+use super::super::cut::{cut, Cut};
 use super::super::mesh::{face_normal, Colours, Mesh, REPEAT_LIMIT};
 use super::super::vector::Vec3;
 use super::super::warning::Warnings;
@@ -12,12 +13,6 @@ use std::path::Path;
 const CREASE: f64 = 0.5;
 /// Colour of vertices without one where others have one.
 const WHITE: [u8; 3] = [255; 3];
-
-/// Triangles of a face, of the indices of its corners, counter-clockwise as these are; at least
-/// one, so that every face has its id.
-fn cut(corners: &[Vec3]) -> Vec<[u32; 3]> {
-    (2..corners.len() as u32).map(|k| [0, k - 1, k]).collect()
-}
 
 /// A triangle of a face.
 struct Piece {
@@ -39,8 +34,14 @@ struct Layout {
 
 /// The faces as meshes in the order of the file, which is that of ids. `looks` are those of the
 /// materials that the file names, then that of faces without.
-pub fn meshes(file: &Path, parsed: &Parsed, looks: &[Look], warnings: &mut Warnings) -> Vec<Mesh> {
+pub fn meshes(
+    file: &Path,
+    parsed: &mut Parsed,
+    looks: &[Look],
+    warnings: &mut Warnings,
+) -> Vec<Mesh> {
     let (pieces, normals) = pieces(parsed);
+    let parsed = &*parsed;
     let mut meshes: Vec<Mesh> = Vec::new();
     let mut builder: Option<Builder> = None;
     for of_face in pieces.chunk_by(|a, b| a.face == b.face) {
@@ -66,37 +67,36 @@ pub fn meshes(file: &Path, parsed: &Parsed, looks: &[Look], warnings: &mut Warni
 }
 
 /// Triangles of all faces, and the normals of their corners: those of the file; where it has none,
-/// smooth ones; where one is no direction, the face's own.
-fn pieces(parsed: &Parsed) -> (Vec<Piece>, Vec<Vec3>) {
+/// smooth ones; where one is no direction, the face's own. Where a face crosses itself the file gets
+/// corners more.
+fn pieces(parsed: &mut Parsed) -> (Vec<Piece>, Vec<Vec3>) {
+    let cut: Vec<Vec<[usize; 3]>> =
+        (0..parsed.faces.len()).map(|face| cut_face(parsed, face)).collect();
     let mut normals: Vec<Vec3> = parsed.normals.iter().map(|n| n.unwrap_or_default()).collect();
     let mut pieces = Vec::new();
     // Pieces without normals, and their vertices as a mesh.
     let mut bare = Vec::new();
     let mut smooth = Mesh::default();
-    for (face, element) in parsed.faces.iter().enumerate() {
-        let corners = parsed.corners(element);
-        let places: Vec<Vec3> =
-            corners.iter().map(|c| parsed.positions[c.vertex as usize]).collect();
+    for (face, triangles) in cut.into_iter().enumerate() {
         let mut own = None;
         let mut normal = |index: u32| match parsed.normals.get(index as usize) {
             Some(None) => *own.get_or_insert_with(|| {
+                let corners = parsed.corners(&parsed.faces[face]).iter();
+                let places: Vec<Vec3> =
+                    corners.map(|c| parsed.positions[c.vertex as usize]).collect();
                 normals.push(face_normal(&places));
                 normals.len() as u32 - 1
             }),
             _ => index,
         };
-        let of_corners: Vec<u32> = corners.iter().map(|c| normal(c.attributes[1])).collect();
-        for triangle in cut(&places) {
-            let triangle = triangle.map(|k| k as usize);
+        for triangle in triangles {
+            let corners = triangle.map(|k| parsed.corners[k]);
             if corners[0].attributes[1] == NONE {
                 bare.push(pieces.len());
-                smooth.triangles.push(triangle.map(|k| corners[k].vertex));
+                smooth.triangles.push(corners.map(|c| c.vertex));
             }
-            pieces.push(Piece {
-                face,
-                corners: triangle.map(|k| element.first + k),
-                normals: triangle.map(|k| of_corners[k]),
-            });
+            let normals = corners.map(|c| normal(c.attributes[1]));
+            pieces.push(Piece { face, corners: triangle, normals });
         }
     }
     if !bare.is_empty() {
@@ -108,6 +108,21 @@ fn pieces(parsed: &Parsed) -> (Vec<Piece>, Vec<Vec3>) {
         normals.append(&mut smooth.normals);
     }
     (pieces, normals)
+}
+
+/// Corners of the triangles of a face. What is at points where the face crosses itself is added.
+fn cut_face(parsed: &mut Parsed, face: usize) -> Vec<[usize; 3]> {
+    let element = parsed.faces[face];
+    let corners = parsed.corners(&element).iter();
+    let places: Vec<Vec3> = corners.map(|c| parsed.positions[c.vertex as usize]).collect();
+    let Cut { triangles, crossings } = cut(&places);
+    let mut corners: Vec<usize> = (element.first..element.first + element.count).collect();
+    for crossing in crossings {
+        let ends = crossing.edge.map(|k| parsed.corners[element.first + k]);
+        corners.push(parsed.corners.len());
+        parsed.cross(&crossing, ends);
+    }
+    triangles.iter().map(|t| t.map(|k| corners[k])).collect()
 }
 
 fn layout(parsed: &Parsed, face: &Element, look: &Look) -> Layout {

@@ -52,13 +52,13 @@ pub fn empty_scene() -> Scene {
 pub fn load(file: &Path, mut scene: Scene, placement: &Placement) -> Result<Scene, SceneError> {
     let mut warnings = Warnings::default();
     let text = decode_with_latin1(&read(file)?).map_err(|error| no_text(file, error))?;
-    let parsed = parse::parse(file, &text, &mut warnings)?;
+    let mut parsed = parse::parse(file, &text, &mut warnings)?;
     drop(text);
     let mut library = Library::read(file, &parsed.libraries, &mut warnings);
     let mut pictures = Pictures::default();
     let (materials, used) = (&mut scene.materials, parsed.used());
     let looks = library.looks(file, &used, materials, &mut pictures, &mut warnings);
-    scene.meshes = convert::meshes(file, &parsed, &looks, &mut warnings);
+    scene.meshes = convert::meshes(file, &mut parsed, &looks, &mut warnings);
     scene.textures = pictures.textures;
     scene.warnings = warnings;
     place(&mut scene, placement);

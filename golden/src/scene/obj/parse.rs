@@ -1,5 +1,6 @@
 //! Reads the statements of an OBJ file.
 
+use super::super::cut::Crossing;
 use super::super::error::{InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT};
 use super::super::vector::{unit, Vec3};
 use super::super::warning::Warnings;
@@ -83,6 +84,37 @@ impl Parsed {
             used[index] = Some(&self.materials[index]);
         }
         used
+    }
+
+    /// Adds a corner where the edge between two others is crossed.
+    pub fn cross(&mut self, crossing: &Crossing, ends: [Corner; 2]) {
+        fn both<T: Copy>(all: &[Option<T>], ends: [u32; 2]) -> Option<[T; 2]> {
+            let [from, to] = ends.map(|k| all.get(k as usize).copied().flatten());
+            Some([from?, to?])
+        }
+        let vertices = ends.map(|corner| corner.vertex);
+        let position = crossing.between(vertices.map(|k| self.positions[k as usize]));
+        if !self.colours.is_empty() {
+            let mix = |ends: [[u8; 3]; 2]| {
+                crossing.between(ends.map(|c| c.map(f64::from))).map(|n| n.round_ties_even() as u8)
+            };
+            self.colours.push(both(&self.colours, vertices).map(mix));
+        }
+        let [points, normals] = [0, 1].map(|kind| ends.map(|corner| corner.attributes[kind]));
+        let mut attributes = [NONE; 2];
+        if points[0] != NONE {
+            attributes[0] = self.texture.len() as u32;
+            let ends = both(&self.texture, points);
+            self.texture.push(ends.map(|ends| crossing.between(ends)));
+        }
+        if normals[0] != NONE {
+            attributes[1] = self.normals.len() as u32;
+            let ends = both(&self.normals, normals);
+            let normal = ends.map(|ends| unit(crossing.between(ends)));
+            self.normals.push(normal.filter(|n| *n != [0.0; 3]));
+        }
+        self.corners.push(Corner { vertex: self.positions.len() as u32, attributes });
+        self.positions.push(position);
     }
 
     /// The corners of a face or a line.
