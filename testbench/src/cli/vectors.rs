@@ -148,7 +148,7 @@ fn scene(
     let is_file = builtin_names().all(|builtin| builtin != name);
     let file = is_file.then(|| scene::read(Path::new(name))).transpose()?;
     let scene = common.open(name, common.view.size)?;
-    let geometry = common.geometry_of(&scene, settings)?;
+    let geometry = drawn(name, common.geometry_of(&scene, settings)?)?;
     let whole = job(settings, &geometry, settings.options);
     let job = target.job(&whole);
     let head = scene_head(target, &job, name, beats)
