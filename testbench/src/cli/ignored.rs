@@ -7,13 +7,14 @@ use wheatstone_golden::config::PARAMETERS;
 impl Common {
     /// Refuses the options of a scene where none is drawn.
     pub(super) fn refuse_scene_options(&self) -> Result<(), Failure> {
-        let View { size, rig, projection, .. } = &self.view;
+        let View { size, rig, projection, strict, .. } = &self.view;
         let options = [
             ("--rig", rig.is_some()),
             ("--projection", projection.is_some()),
             ("--size", size.is_some()),
             ("--cull", self.cull != CullChoice::None),
             ("--wire", self.wire),
+            ("--strict", *strict),
         ];
         if let Some((option, _)) = options.into_iter().find(|(_, given)| *given) {
             return Err(Failure::Input(format!(
