@@ -54,7 +54,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     }
     if let Some(file) = &args.json {
         let content = serde_json::json!({
-            "command": std::env::args().collect::<Vec<_>>().join(" "),
+            "command": words::called(),
             "scene": name,
             "width": width,
             "height": height,

@@ -253,9 +253,11 @@ impl Console {
         match (event, &self.bar) {
             (Event::Planned(cases), Some(bar)) => bar.set_length(cases as u64),
             (Event::Begin(target, case), Some(bar)) => {
-                bar.set_message(format!("{}: {case}", target.name()));
+                bar.set_message(print::clean(&format!("{}: {case}", target.name())));
             }
-            (Event::Mismatch(failure), Some(bar)) => bar.println(Console::mismatch(failure)),
+            (Event::Mismatch(failure), Some(bar)) => {
+                bar.println(print::clean(&Console::mismatch(failure)))
+            }
             (Event::Mismatch(failure), None) => tell!("{}", Console::mismatch(failure)),
             (Event::End(_), Some(bar)) => bar.inc(1),
             (Event::End(entry), None) if entry.passed() => tell!("{}", Console::line(entry)),

@@ -58,7 +58,7 @@ pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
     }
     let bins = whole.then_some(&bins);
     say!("{}", cover::table(&report, bins));
-    let command = std::env::args().collect::<Vec<_>>().join(" ");
+    let command = words::called();
     if let Some(file) = &args.json {
         files::write(file, cover::json(&report, bins, &command).as_bytes())?;
     }

@@ -2,21 +2,8 @@
 //!
 //! Its exit statuses are in `failure.rs` and in its help.
 
-/// Prints a line. A reader that has gone away, as `head` does, is no reason to fail.
-macro_rules! say {
-    ($($argument:tt)*) => {{
-        use std::io::Write;
-        let _ = writeln!(std::io::stdout(), $($argument)*);
-    }};
-}
-
-/// Prints a line of progress or an error, likewise.
-macro_rules! tell {
-    ($($argument:tt)*) => {{
-        use std::io::Write;
-        let _ = writeln!(std::io::stderr(), $($argument)*);
-    }};
-}
+#[macro_use]
+mod print;
 
 mod baseline;
 mod compare;
@@ -37,6 +24,7 @@ mod supervise;
 mod synth;
 mod vectors;
 mod waves;
+mod words;
 
 use crate::settings::Settings;
 use crate::tools::Toolchain;
@@ -202,7 +190,10 @@ fn parse_target(text: &str) -> Result<Target, String> {
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match words::parse() {
+        Ok(cli) => cli,
+        Err(status) => return ExitCode::from(print::finish(status)),
+    };
     let is_child = supervise::is_child();
     if cli.command.is_supervised() && !is_child {
         return ExitCode::from(supervise::supervise());
@@ -219,6 +210,7 @@ pub fn main() -> ExitCode {
         tell!("error: {failure}");
         failure.status()
     });
+    let status = print::finish(status);
     watch::finish(status);
     ExitCode::from(status)
 }

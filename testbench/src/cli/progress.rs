@@ -1,5 +1,6 @@
 //! What turns in the terminal while something is waited for, and lines beside it.
 
+use super::print::clean;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
@@ -50,11 +51,9 @@ impl Spinner {
     }
 
     pub fn tell(&self, name: &str, description: &str) {
-        use std::io::Write;
-        let text = format!("{name}: {description}");
         match &self.0 {
-            Some(bar) => bar.set_message(text),
-            None => drop(writeln!(std::io::stderr(), "{text}")),
+            Some(bar) => bar.set_message(clean(&format!("{name}: {description}"))),
+            None => tell!("{name}: {description}"),
         }
     }
 

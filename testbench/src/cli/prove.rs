@@ -258,7 +258,7 @@ fn write_json(
 ) -> Result<(), Failure> {
     let Some(file) = &args.json else { return Ok(()) };
     let content = serde_json::json!({
-        "command": std::env::args().collect::<Vec<_>>().join(" "),
+        "command": words::called(),
         name: entries,
     });
     Ok(files::write(file, format!("{content:#}\n").as_bytes())?)

@@ -239,7 +239,7 @@ fn json(results: &[(&Named, Way, Replayed)]) -> String {
         })
     };
     let content = serde_json::json!({
-        "command": std::env::args().collect::<Vec<_>>().join(" "),
+        "command": words::called(),
         "replays": results.iter().map(entry).collect::<Vec<_>>(),
     });
     format!("{content:#}\n")

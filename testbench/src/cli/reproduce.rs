@@ -48,7 +48,7 @@ pub(super) fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
     });
     drop(spinner);
     let reports = reports?;
-    let command = std::env::args().collect::<Vec<_>>().join(" ");
+    let command = words::called();
     let content = json(&reports, &command);
     for file in [Some(&args.out.join("reproduce.json")), args.json.as_ref()].into_iter().flatten() {
         files::write(file, content.as_bytes())?;

@@ -56,7 +56,7 @@ pub(super) fn run(args: &RigArgs) -> Result<u8, Failure> {
     if let Some(file) = &args.json {
         let mut content = volume.json(at);
         content["scene"] = name.into();
-        content["command"] = std::env::args().collect::<Vec<_>>().join(" ").into();
+        content["command"] = words::called().into();
         files::write(file, format!("{content:#}\n").as_bytes())?;
     }
     Ok(OK)

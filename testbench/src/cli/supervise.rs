@@ -94,7 +94,7 @@ fn run() -> io::Result<u8> {
     end_orphans();
     if io::stderr().is_terminal() {
         // The bar of the child may stand on this line.
-        tell!();
+        tell!("");
     }
     tell!("{}", vanished(ended, &running));
     Ok(UNFINISHED)

@@ -69,7 +69,7 @@ pub(super) fn run(args: &SynthArgs) -> Result<u8, Failure> {
     }
     if let Some(file) = &args.json {
         let content = serde_json::json!({
-            "command": std::env::args().collect::<Vec<_>>().join(" "),
+            "command": words::called(),
             "measured": entries,
         });
         files::write(file, format!("{content:#}\n").as_bytes())?;
