@@ -4,6 +4,7 @@ use crate::end_all;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::fs;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::Mutex;
 use std::thread;
 
@@ -17,9 +18,20 @@ pub fn end_now(status: u8, clean: impl FnOnce()) -> ! {
     signal_hook::low_level::exit(status.into())
 }
 
+static IS_SET: AtomicBool = AtomicBool::new(false);
+
+/// Ends the children of this process on a signal, unless [`on_signal`] says what else is to be done: they are in groups
+/// of their own, which Ctrl-C does not reach.
+pub(crate) fn guard() {
+    if !IS_SET.load(Ordering::Relaxed) {
+        on_signal(|signal| end_now(signal_status(signal), || ()));
+    }
+}
+
 /// Calls `end` on the first signal that asks this process to end: SIGINT, SIGTERM or SIGHUP, those that were not
-/// ignored when it began, as SIGHUP is under `nohup`. Without a further thread signals end the process as they always do.
+/// ignored when it began, as SIGHUP is under `nohup`.
 pub fn on_signal(end: impl FnOnce(i32) + Send + 'static) {
+    IS_SET.store(true, Ordering::Relaxed);
     let ignored = ignored();
     let asked = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|n| ignored >> (n - 1) & 1 == 0);
     let Ok(mut signals) = Signals::new(asked) else { return };

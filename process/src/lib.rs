@@ -134,13 +134,22 @@ pub struct Process<'a> {
     processor: Option<Duration>,
     input: Option<Vec<u8>>,
     kept: usize,
+    patience: Duration,
 }
 
 impl<'a> Process<'a> {
     /// The command that runs `tool`, as messages name it.
     pub fn new(tool: impl Into<String>, command: &'a mut Command) -> Process<'a> {
         let call = Call { tool: tool.into(), subject: String::new() };
-        Process { command, call, limit: Limit::Common, processor: None, input: None, kept: KEPT }
+        Process {
+            command,
+            call,
+            limit: Limit::Common,
+            processor: None,
+            input: None,
+            kept: KEPT,
+            patience: PATIENCE,
+        }
     }
 
     /// What it works on, as messages name it.
@@ -279,7 +288,7 @@ impl<'a> Process<'a> {
             Limit::None => Duration::MAX,
         };
         let quiet = matches!(self.limit, Limit::None);
-        let (start, mut told) = (Instant::now(), if quiet { Duration::MAX } else { PATIENCE });
+        let (start, mut told) = (Instant::now(), if quiet { Duration::MAX } else { self.patience });
         loop {
             let time = start.elapsed();
             if time >= limit {
@@ -369,6 +378,7 @@ struct Group {
 impl Group {
     fn start(command: &mut Command) -> io::Result<Group> {
         use std::os::unix::process::CommandExt;
+        ending::guard();
         // None is started beside the list of those to be killed.
         let mut live = live();
         let child = command.process_group(0).spawn()?;

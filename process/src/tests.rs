@@ -88,3 +88,17 @@ fn one_that_prints_for_ever_is_stopped() {
     assert!(text.starts_with("1\n2\n") && text.ends_with("\n1000\n"), "{text}");
     assert!(text.contains("[3793 bytes left out]"), "{text}");
 }
+
+static TOLD: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+#[test]
+fn who_waits_is_told_what_for() {
+    on_tell(|line| TOLD.lock().unwrap().push(line.to_owned()));
+    let mut command = sh("sleep 1");
+    let mut process = Process::new("tool", &mut command).on("it");
+    process.patience = Duration::from_millis(200);
+    assert!(process.run().unwrap().succeeded());
+    let told = TOLD.lock().unwrap();
+    let expected = "waiting for tool on it: 0 s so far; it is stopped after 3600 s, see --timeout";
+    assert!(told.iter().filter(|line| *line == expected).count() >= 2, "{told:?}");
+}

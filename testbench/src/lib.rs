@@ -14,6 +14,7 @@ pub mod cases;
 pub mod cli;
 pub mod cover;
 mod cursors;
+mod doctor;
 mod drive;
 mod flow;
 pub mod generated;

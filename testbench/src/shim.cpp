@@ -73,7 +73,8 @@ void vl_fatal(const char* file, int line, const char*, const char* message) {
 // A model that ends the process by $c or DPI would look like a run that came to its end. The linker puts these
 // in the place of the functions of that name.
 [[noreturn]] static void refuse_exit(const char* name, int status) {
-    std::fprintf(stderr, "\nerror: the model calls %s(%d)\n", name, status);
+    // Past what a module prints, which is kept from the terminal.
+    dprintf(2, "\nerror: the model calls %s(%d)\n", name, status);
     std::abort();
 }
 extern "C" [[noreturn]] void __wrap_exit(int status) { refuse_exit("exit", status); }

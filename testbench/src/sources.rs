@@ -9,9 +9,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use wheatstone_golden::files;
 
 /// The line from which on a file has properties, which provers alone read, up to the next `` `endif ``.
 pub(crate) const FORMAL: &str = "`ifdef FORMAL\n";
+
+/// Bytes of a file; none comes near.
+pub(crate) const LIMIT: u64 = 64 << 20;
 
 /// Files by name, with their content.
 pub(crate) type Sources = BTreeMap<String, Vec<u8>>;
@@ -44,7 +48,8 @@ pub(crate) fn read(rtl: &Path, module: &str) -> Result<Sources, Unreadable> {
             continue;
         }
         let path = rtl.join(&name);
-        let content = fs::read(&path).map_err(at(&path))?;
+        let content = files::read(&path, LIMIT)
+            .map_err(|error| Unreadable { path: error.file, source: error.source })?;
         let text = String::from_utf8_lossy(&content);
         let is_word = |c: char| c.is_ascii_alphanumeric() || "_$.".contains(c);
         for word in text.split(|c: char| !is_word(c)) {

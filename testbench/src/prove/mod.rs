@@ -27,6 +27,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 use task::{Programs, Run, Task};
 use wheatstone_golden::config::Config;
+use wheatstone_golden::files;
 use wheatstone_golden::targets::Target;
 
 /// How a property was proved.
@@ -198,7 +199,10 @@ impl Prover {
     /// The Verilog of a module.
     pub fn text(&self, module: &str) -> Result<String, FlowError> {
         let path = self.rtl.join(format!("sam_{module}.v"));
-        std::fs::read_to_string(&path).map_err(|source| FlowError::Read { path, source })
+        match files::read(&path, sources::LIMIT) {
+            Ok(text) => Ok(String::from_utf8_lossy(&text).into_owned()),
+            Err(error) => Err(FlowError::Read { path, source: error.source }),
+        }
     }
 
     /// The builds of a module: those of the named configurations, each set of parameters once, then
