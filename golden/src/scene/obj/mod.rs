@@ -19,6 +19,8 @@ mod material;
 mod parse;
 mod picture;
 mod statement;
+#[cfg(test)]
+mod tests;
 
 pub use picture::{TEXELS_LIMIT, TEXTURE_LIMIT};
 
