@@ -20,15 +20,18 @@ pub struct Kind {
 const OBJ: &str = "# A square and a triangle\nmtllib m.mtl\no first\nv -1 -1 0 1 0 0\nv 1 -1 0\nv 1 1 0\nv -1 1 -0.5\n\
 vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nusemtl red\ng a b\ns 1\nf 1/1/1 2/2/1 3/3/1 4\nusemtl picture\nf -4//1 -3//1 -2//1\n\
 l 1 3\np 1\n";
+const MESH: &str = "v -1 -1 0\nv 1 -1 0\nv 0 1 -1\nf 1 2 3\n";
 const MTL: &str =
     "newmtl red\nKd 1 0.2 0.1\nKa 0 0 0\nNs 10\nd 0.5\nillum 2\nnewmtl picture\nTr 0\n\
 map_Kd -s 2 2 1 -o 0.5 0 0 t.png\nmap_d -mm 0 1 t.png\n";
 const SCENE: &str = r#"{"format": "stereo-scene/1", "width": 24, "height": 16, "pixels_per_unit": 5,
 "eye_separation": 0.6, "viewing_distance": 5, "background": [0, 0, 10],
 "vertices": [[-1, -1, 0], [1, -1, 0], [0, 1, 1]],
-"colors": [[255, 0, 0], [0, 255, 0], [0, 0, 255, 128]], "triangles": [[0, 1, 2]]}"#;
-const RIG: &str = r#"{"eye_separation": 0.6, "viewing_distance": 5, "placement": {"center": [0, 0, 0], "size": 2}}"#;
-const GRID: &str = "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n1 2 3 4\n2 3 4 5\n3 4 -9999 6\n";
+"colors": [[255, 0, 0], [0, 255, 0], [0, 0, 255]], "triangles": [[0, 1, 2]]}"#;
+const RIG: &str = r#"{"eye_separation": 0.6, "viewing_distance": 5, "projection": "shear",
+"placement": {"rotation": [0, 30, 5], "offset": [0, 0, -0.5], "fit": 2, "relief": null},
+"light": {"direction": [0, 1, 2], "colour": [1, 1, 1], "ambient": [0.2, 0.2, 0.2]}}"#;
+const GRID: &str = "# Heights\n1 2 3 4\n2 3.5 4e0 5\n3 4 -9 6\n";
 /// One pixel, blue, green, red, 24 bits.
 const BMP: &[u8] = b"BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x01\0\0\0\x01\0\0\0\x01\0\x18\0\0\0\0\0\x04\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x10\x20\x30\0";
 /// One pixel of true colour.
@@ -44,10 +47,10 @@ pub fn all(program: &Path, workspace: &Path, folder: &Path) -> io::Result<Vec<Ki
         scene("mtl", &[("s.obj", OBJ), ("m.mtl", MTL)], ".mtl", Some(("t.png", png()?))),
         scene("json", &[("s.json", SCENE)], ".json", None),
         scene("grid", &[("s.txt", GRID)], ".txt", None),
-        scene("png grid", &[], ".png", Some(("s.png", png()?))),
+        scene("png grid", &[], ".png", Some(("s.png", heights()?))),
         Kind {
-            line: "rig --scene s.json --rig r.json --at 1,2 --out out",
-            ..scene("rig", &[("r.json", RIG), ("s.json", SCENE)], "r.json", None)
+            line: "rig --scene s.obj --rig r.json --at 1,2 --out out",
+            ..scene("rig", &[("r.json", RIG), ("s.obj", MESH)], "r.json", None)
         },
     ];
     let pictures = [
@@ -71,7 +74,7 @@ pub fn all(program: &Path, workspace: &Path, folder: &Path) -> io::Result<Vec<Ki
     kinds.extend(packs(program, folder)?);
     kinds.extend(OPTIONS.iter().map(|line| Kind {
         name: "options",
-        files: vec![("s.json".into(), SCENE.into()), ("r.json".into(), RIG.into())],
+        files: vec![("s.obj".into(), MESH.into()), ("r.json".into(), RIG.into())],
         damaged: None,
         line,
     }));
@@ -80,13 +83,12 @@ pub fn all(program: &Path, workspace: &Path, folder: &Path) -> io::Result<Vec<Ki
 }
 
 /// Command lines that are damaged.
-const OPTIONS: [&str; 6] = [
-    "render --scene s.json --rig r.json --size 24x16 --method direct --stereo anaglyph,wiggle --dpi 100 --out out",
-    "render --scene s.json --config paper --param filter=2 --cull back --wire --projection shear --out out",
-    "rig --scene s.json --rig r.json --at 1,2.5 --projection piecewise --json out.json",
-    "vectors sampler --seed 3 --beats 5 --config full --param subpixel_bits=6 --out out",
+const OPTIONS: [&str; 5] = [
+    "render --scene s.obj --rig r.json --size 24x16 --method direct --stereo anaglyph,wiggle --dpi 100 --out out",
+    "render --scene s.obj --config paper --param filter=2 --cull back --wire --projection shear --out out",
+    "rig --scene s.obj --rig r.json --at 1,2.5 --projection piecewise --json out.json",
+    "vectors sampler --seed 3 --beats 5 --config full --param subpixel_bits=4 --out out",
     "list --json",
-    "check s.json",
 ];
 
 /// A scene that is drawn.
@@ -114,6 +116,14 @@ fn png() -> io::Result<Vec<u8>> {
 
 fn jpeg() -> io::Result<Vec<u8>> {
     encoded(image::ImageFormat::Jpeg)
+}
+
+/// A small picture of heights.
+fn heights() -> io::Result<Vec<u8>> {
+    let picture = image::GrayImage::from_fn(6, 4, |x, y| image::Luma([(x * 30 + y) as u8]));
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, image::ImageFormat::Png).map_err(io::Error::other)?;
+    Ok(bytes.into_inner())
 }
 
 /// A small picture.

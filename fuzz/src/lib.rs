@@ -5,6 +5,7 @@
 //! printable text that names the file; and leave whole output or none.
 
 mod judge;
+pub mod kill;
 pub mod kinds;
 mod mutate;
 
@@ -74,12 +75,26 @@ impl Plan {
             let same = kinds.iter().filter(|other| other.name == kind.name).count();
             tasks.extend((0..self.inputs.div_ceil(same)).map(|number| (index, number)));
         }
+        for (index, kind) in kinds.iter().enumerate() {
+            // What is refused without damage tests nothing.
+            let (was_read, said, what) = self.input(kind, [index, 0], None)?;
+            if !was_read || what.is_some() {
+                let what = what.unwrap_or_default();
+                let why = format!("{}, undamaged: {what}\n{said}", kind.name);
+                return Err(io::Error::other(why));
+            }
+        }
         let (next, read) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let found = Mutex::new(Vec::new());
         let work = || -> io::Result<()> {
             while let Some(&(kind, number)) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let (was_read, finding) = self.input(&kinds[kind], kind, number)?;
+                let seed = self.seed ^ (kind as u64) << 32 ^ number as u64;
+                let mut rng = Rng::with_seed(seed);
+                let (was_read, said, what) =
+                    self.input(&kinds[kind], [kind, number], Some(&mut rng))?;
                 read.fetch_add(was_read.into(), Ordering::Relaxed);
+                let name = kinds[kind].name;
+                let finding = what.map(|what| Finding { kind: name, number, what, said });
                 let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
                 found.extend(finding.map(|finding| (kind, finding)));
             }
@@ -99,16 +114,15 @@ impl Plan {
         Ok(Tally { inputs: tasks.len(), read: read.into_inner(), findings })
     }
 
-    /// Runs one input; whether the program read it, and what was found.
+    /// Runs one input, damaged or not; whether the program read it, what it said, and what is wrong.
     fn input(
         &self,
         kind: &Kind,
-        index: usize,
-        number: usize,
-    ) -> io::Result<(bool, Option<Finding>)> {
-        let mut rng = Rng::with_seed(self.seed ^ (index as u64) << 32 ^ number as u64);
+        [index, number]: [usize; 2],
+        rng: Option<&mut Rng>,
+    ) -> io::Result<(bool, String, Option<String>)> {
         let folder = tempfile::tempdir()?;
-        let words = self.prepare(kind, folder.path(), &mut rng)?;
+        let words = self.prepare(kind, folder.path(), rng)?;
         let before = judge::files(folder.path())?;
         let mut command = Command::new("sh");
         let limits = format!("ulimit -v {KILOBYTES}; ulimit -t {SECONDS}; exec \"$0\" \"$@\"");
@@ -122,38 +136,37 @@ impl Plan {
             }
             Err(error) => (false, Some(error.to_string()), Vec::new()),
         };
-        let Some(what) = what else { return Ok((was_read, None)) };
-        if let Some(keep) = &self.keep {
+        let said = String::from_utf8_lossy(&said).chars().take(600).collect();
+        if let (Some(_), Some(keep)) = (&what, &self.keep) {
             let kept = keep.join(format!("{}-{index}-{number}", kind.name.replace(' ', "-")));
             fs::create_dir_all(&kept)?;
             copy(folder.path(), &kept)?;
             let words: Vec<_> = words.iter().map(|word| String::from_utf8_lossy(word)).collect();
             fs::write(kept.join("command"), words.join(" "))?;
         }
-        let said = String::from_utf8_lossy(&said).chars().take(600).collect();
-        Ok((was_read, Some(Finding { kind: kind.name, number, what, said })))
+        Ok((was_read, said, what))
     }
 
     /// Writes the files of an input, one of them damaged, and gives the command line.
-    fn prepare(&self, kind: &Kind, folder: &Path, rng: &mut Rng) -> io::Result<Vec<Vec<u8>>> {
-        let ends =
-            |(name, _): &&(String, Vec<u8>)| kind.damaged.is_some_and(|end| name.ends_with(end));
-        let damaged: Vec<&str> =
-            kind.files.iter().filter(ends).map(|(name, _)| &name[..]).collect();
-        let chosen = (!damaged.is_empty()).then(|| damaged[rng.usize(0..damaged.len())]);
+    fn prepare(
+        &self,
+        kind: &Kind,
+        folder: &Path,
+        rng: Option<&mut Rng>,
+    ) -> io::Result<Vec<Vec<u8>>> {
         for (name, content) in &kind.files {
             let path = folder.join(name);
             path.parent().map_or(Ok(()), fs::create_dir_all)?;
-            let other = &kind.files[rng.usize(0..kind.files.len())].1;
-            match chosen == Some(name) {
-                true => fs::write(path, mutate(content, other, rng))?,
-                false => fs::write(path, content)?,
-            }
+            fs::write(path, content)?;
         }
-        Ok(match kind.damaged {
-            Some(_) => kind.line.split(' ').map(|word| word.as_bytes().to_vec()).collect(),
-            None => mutate::mutate_line(kind.line, rng),
-        })
+        let words = || kind.line.split(' ').map(|word| word.as_bytes().to_vec()).collect();
+        let Some(rng) = rng else { return Ok(words()) };
+        let Some(end) = kind.damaged else { return Ok(mutate::mutate_line(kind.line, rng)) };
+        let damaged: Vec<_> = kind.files.iter().filter(|(name, _)| name.ends_with(end)).collect();
+        let (name, content) = damaged[rng.usize(0..damaged.len())];
+        let other = &kind.files[rng.usize(0..kind.files.len())].1;
+        fs::write(folder.join(name), mutate(content, other, rng))?;
+        Ok(words())
     }
 }
 

@@ -1,0 +1,271 @@
+//! The program killed: at every call by which it changes files, and at random ones of the programs that it calls.
+//!
+//! `strace` kills. A run is first counted, then made again once for each call, and killed there. Afterwards its output must
+//! be whole, the old one or the new one or none, and the next run must work and give what an undisturbed one gives.
+
+use fastrand::Rng;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Calls that change files or folders; those with `?` are not on every machine.
+const CALLS: &str = "openat,?creat,write,pwrite64,writev,?truncate,ftruncate,?rename,?renameat,renameat2,?link,linkat,\
+?unlink,unlinkat,?mkdir,mkdirat,?rmdir,fsync,fdatasync,copy_file_range,?sendfile";
+
+/// What is run and killed.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Its name.
+    pub name: &'static str,
+    /// The command line.
+    pub line: &'static str,
+    /// A command line whose output is there before, if any.
+    pub before: Option<&'static str>,
+    /// The folder with the output, if there is any.
+    pub out: Option<&'static str>,
+}
+
+/// All of them: packs and pictures, new and in the place of older ones, and a regression with a cold cache.
+pub const CASES: [Case; 5] = [
+    Case { name: "vectors", line: PACK, before: None, out: Some("packs") },
+    Case {
+        name: "vectors again",
+        line: PACK,
+        before: Some("vectors sampler --seed 2 --beats 30 --out packs"),
+        out: Some("packs"),
+    },
+    Case { name: "render", line: PICTURES, before: None, out: Some("pictures") },
+    Case {
+        name: "render again",
+        line: PICTURES,
+        before: Some(
+            "render --scene ratio --size 40x30 --method direct --stereo anaglyph --out pictures",
+        ),
+        out: Some("pictures"),
+    },
+    Case { name: "cosim", line: "cosim display --beats 50", before: None, out: None },
+];
+const PACK: &str = "vectors sampler --seed 1 --beats 30 --out packs";
+const PICTURES: &str =
+    "render --scene ramp --size 48x32 --method direct --stereo anaglyph,wiggle --out pictures";
+
+/// A place to be killed at: a call, and the how manieth of a thread.
+type Point = (String, u32);
+
+/// A folder tree: path and content of each file. Names that begin with a dot are not output.
+type Tree = BTreeMap<PathBuf, Vec<u8>>;
+
+/// Kills a program.
+#[derive(Debug)]
+pub struct Killer {
+    /// The program.
+    pub program: PathBuf,
+    /// The workspace whose Verilog it reads.
+    pub workspace: PathBuf,
+    /// Folder for what is kept from one run to the next.
+    pub scratch: PathBuf,
+}
+
+impl Killer {
+    /// Kills a case everywhere, and at so many random places of the programs that it calls; what was wrong, and the
+    /// number of kills.
+    pub fn run(&self, case: &Case, children: usize, seed: u64) -> io::Result<(Vec<String>, usize)> {
+        let whole = self.folder(case)?;
+        let old = self.tree(case, whole.path())?;
+        let output = self.command(case.line, whole.path()).output()?;
+        if !output.status.success() {
+            return Err(io::Error::other(format!(
+                "{} fails undisturbed: {}",
+                case.name,
+                said(&output)
+            )));
+        }
+        let new = self.tree(case, whole.path())?;
+        let mut faults = Vec::new();
+        let points = self.points(case, &["-b", "execve"])?;
+        for point in &points {
+            let fault = self.kill(case, point, &["-b", "execve"], [&old, &new])?;
+            faults.extend(fault.map(|what| format!("{} {}: {what}", point.0, point.1)));
+        }
+        let mut killed = points.len();
+        if children > 0 {
+            let own: BTreeSet<Point> = points.into_iter().collect();
+            let all = self.points(case, &[])?;
+            let others: Vec<Point> = all.into_iter().filter(|point| !own.contains(point)).collect();
+            let mut rng = Rng::with_seed(seed);
+            for _ in 0..if others.is_empty() { 0 } else { children } {
+                let point = &others[rng.usize(0..others.len())];
+                let fault = self.kill(case, point, &[], [&old, &new])?;
+                faults.extend(fault.map(|what| format!("child, {} {}: {what}", point.0, point.1)));
+                killed += 1;
+            }
+        }
+        Ok((faults, killed))
+    }
+
+    /// A workspace of its own, with a cold cache, for a run.
+    fn folder(&self, case: &Case) -> io::Result<tempfile::TempDir> {
+        let folder = tempfile::tempdir()?;
+        std::os::unix::fs::symlink(self.workspace.join("rtl"), folder.path().join("rtl"))?;
+        let before = case.before.map(|line| self.command(line, folder.path()).output());
+        match before.transpose()? {
+            Some(output) if !output.status.success() => Err(io::Error::other(said(&output))),
+            _ => Ok(folder),
+        }
+    }
+
+    fn command(&self, line: &str, folder: &Path) -> Command {
+        let mut command = Command::new(&self.program);
+        command.args(line.split(' '));
+        self.at_home(&mut command, folder);
+        command
+    }
+
+    /// Works in a folder, with a compiler that does not optimise, and compiles Verilator's runtime once.
+    fn at_home(&self, command: &mut Command, folder: &Path) {
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let folders = [self.scratch.join("bin")].into_iter().chain(std::env::split_paths(&path));
+        command.env("PATH", std::env::join_paths(folders).unwrap_or(path)).current_dir(folder);
+    }
+
+    /// Puts the compiler where [`Killer::at_home`] looks for it.
+    pub fn prepare(&self) -> io::Result<()> {
+        let bin = self.scratch.join("bin");
+        fs::create_dir_all(&bin)?;
+        let text = "#!/bin/sh\nout=; last=\nfor word; do [ \"$last\" = -o ] && out=$word; last=$word; done\n\
+             kept=$(dirname \"$0\")/kept-$(basename \"$out\")\n\
+             case \"$out\" in verilated*.o) [ -f \"$kept\" ] && exec cp \"$kept\" \"$out\" ;; esac\n\
+             /usr/bin/g++ \"$@\" -O0 || exit\n\
+             case \"$out\" in verilated*.o) cp \"$out\" \"$kept.$$\" && mv \"$kept.$$\" \"$kept\" ;; esac\n";
+        fs::write(bin.join("g++"), text)?;
+        let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+        fs::set_permissions(bin.join("g++"), mode)
+    }
+
+    /// strace with these options, of the case's command.
+    fn strace(&self, case: &Case, options: &[&str], folder: &Path) -> Command {
+        let mut command = Command::new("strace");
+        command.args(["-f", "-qq"]).args(options).arg(&self.program).args(case.line.split(' '));
+        self.at_home(&mut command, folder);
+        command
+    }
+
+    /// The places where a case can be killed.
+    fn points(&self, case: &Case, options: &[&str]) -> io::Result<Vec<Point>> {
+        let folder = self.folder(case)?;
+        let log = self.scratch.join("log");
+        let trace = format!("trace={CALLS}");
+        let file = log.to_string_lossy();
+        let options = [options, &["-e", &trace, "-o", &file]].concat();
+        let output = self.strace(case, &options, folder.path()).output()?;
+        if !output.status.success() {
+            return Err(io::Error::other(format!("strace: {}", said(&output))));
+        }
+        Ok(places(&String::from_utf8_lossy(&fs::read(&log)?)))
+    }
+
+    /// Kills a run at a point; what is wrong then.
+    fn kill(
+        &self,
+        case: &Case,
+        (call, number): &Point,
+        options: &[&str],
+        [old, new]: [&Tree; 2],
+    ) -> io::Result<Option<String>> {
+        let folder = self.folder(case)?;
+        let [trace, inject] =
+            [format!("trace={call}"), format!("inject={call}:signal=KILL:when={number}")];
+        let options = [options, &["-o", "/dev/null", "-e", &trace, "-e", &inject]].concat();
+        let killed = self.strace(case, &options, folder.path()).output()?;
+        let left = self.tree(case, folder.path())?;
+        if left != *old && left != *new {
+            return Ok(Some(format!("neither the old output nor the new one: {}", names(&left))));
+        }
+        if killed.status.success() && left != *new {
+            return Ok(Some("it passed without its output".into()));
+        }
+        let again = self.command(case.line, folder.path()).output()?;
+        if !again.status.success() {
+            return Ok(Some(format!("the next run fails: {}", said(&again))));
+        }
+        let made = self.tree(case, folder.path())?;
+        Ok((made != *new).then(|| format!("the next run gives something else: {}", names(&made))))
+    }
+
+    fn tree(&self, case: &Case, folder: &Path) -> io::Result<Tree> {
+        let mut tree = Tree::new();
+        if let Some(out) = case.out.map(|out| folder.join(out)).filter(|out| out.is_dir()) {
+            add(&out, &out, &mut tree)?;
+        }
+        Ok(tree)
+    }
+}
+
+fn add(root: &Path, folder: &Path, tree: &mut Tree) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let path = entry.path();
+        if entry.file_name().as_encoded_bytes().starts_with(b".") {
+            continue;
+        }
+        if entry.file_type()?.is_dir() {
+            add(root, &path, tree)?;
+        } else {
+            tree.insert(path.strip_prefix(root).unwrap_or(&path).to_owned(), fs::read(&path)?);
+        }
+    }
+    Ok(())
+}
+
+fn names(tree: &Tree) -> String {
+    let names: Vec<String> =
+        tree.iter().map(|(name, bytes)| format!("{} ({})", name.display(), bytes.len())).collect();
+    names.join(", ")
+}
+
+fn said(output: &Output) -> String {
+    let text = [&output.stdout[..], &output.stderr].concat();
+    String::from_utf8_lossy(&text).lines().take(6).collect::<Vec<_>>().join("\n")
+}
+
+/// The places in a log: how often each thread makes a call. Files that are opened for reading do not count as such,
+/// but strace counts them.
+fn places(log: &str) -> Vec<Point> {
+    let mut counts: BTreeMap<(&str, &str), u32> = BTreeMap::new();
+    let mut places = BTreeSet::new();
+    for line in log.lines() {
+        let Some((thread, rest)) = line.trim().split_once(char::is_whitespace) else { continue };
+        let Some((call, arguments)) = rest.trim_start().split_once('(') else { continue };
+        if call.is_empty() || !call.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+        {
+            continue;
+        }
+        let count = counts.entry((thread, call)).or_default();
+        *count += 1;
+        if call != "openat"
+            || ["O_CREAT", "O_WRONLY", "O_RDWR"].iter().any(|w| arguments.contains(w))
+        {
+            places.insert((call.to_owned(), *count));
+        }
+    }
+    places.into_iter().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_read_from_a_log() {
+        let log = "12  openat(AT_FDCWD, \"/lib\", O_RDONLY|O_CLOEXEC) = 3\n\
+             12  openat(AT_FDCWD, \"f\", O_WRONLY|O_CREAT, 0666) = 3\n12  write(3, \"a\", 1) = 1\n\
+             13  write(3, \"openat(\", 7) = 7\n13  write(3, <unfinished ...>\n12  --- SIGCHLD {si_signo=1} ---\n\
+             13  <... write resumed>) = 1\n12  fsync(3) = 0\n12  +++ exited with 0 +++\n";
+        let place = |call: &str, number| (call.to_owned(), number);
+        let expected =
+            [place("fsync", 1), place("openat", 2), place("write", 1), place("write", 2)];
+        assert_eq!(places(log), expected);
+    }
+}
