@@ -1,9 +1,10 @@
 //! Documentation: generated parts are current, links lead somewhere, diagrams name the registers that
 //! the Verilog has, and every unit has its four files.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::document::COMMAND;
 use wheatstone_golden::targets::Target;
@@ -188,4 +189,41 @@ fn the_page_of_vectors_explains_every_field_of_a_manifest() {
         let stream = name.ends_with(".mem") || name.ends_with(".bin");
         assert!(stream || page.contains(&format!("`{name}`")), "nothing about {name}");
     }
+}
+
+/// Files of a folder and those below it, by their paths in it.
+fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    for entry in fs::read_dir(folder).expect("a folder").map(|entry| entry.unwrap()) {
+        let name = PathBuf::from(entry.file_name());
+        if entry.file_type().unwrap().is_dir() {
+            let below = content(&entry.path()).into_iter();
+            all.extend(below.map(|(path, bytes)| (name.join(path), bytes)));
+        } else {
+            all.insert(name, fs::read(entry.path()).unwrap_or_default());
+        }
+    }
+    all
+}
+
+/// Scripts must run, and hashes of packs be the same, however git is told to end lines.
+#[test]
+fn a_checkout_has_the_same_bytes_whatever_ends_lines() {
+    if !workspace().join(".git").exists() {
+        return;
+    }
+    let check_out = |autocrlf: &str| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut git = Command::new("git");
+        git.current_dir(workspace()).args(["-c", &format!("core.autocrlf={autocrlf}")]);
+        git.args(["checkout-index", "--all", "--force"]);
+        git.arg(format!("--prefix={}/", folder.path().display()));
+        assert!(git.status().expect("git runs").success());
+        content(folder.path())
+    };
+    let (plain, other) = (check_out("false"), check_out("true"));
+    assert!(plain.len() > 100 && plain.len() == other.len());
+    let changed: Vec<_> = plain.iter().filter(|(path, bytes)| other[*path] != **bytes).collect();
+    let changed: Vec<_> = changed.into_iter().map(|(path, _)| path).collect();
+    assert!(changed.is_empty(), "{} files, such as {:?}", changed.len(), changed[0]);
 }
