@@ -11,6 +11,7 @@ use std::process::Command;
 use std::time::Duration;
 use thiserror::Error;
 use wheatstone_golden::files::{self, Scratch, WriteError};
+use wheatstone_golden::text::printable_path;
 use wheatstone_process::{Output, Process, ProcessError};
 
 /// Why a flow of open tools came to no result.
@@ -20,7 +21,7 @@ pub enum FlowError {
     #[error(transparent)]
     Tool(#[from] ToolError),
     /// A file could not be read.
-    #[error("cannot read {}: {source}", .path.display())]
+    #[error("cannot read {}: {source}", printable_path(.path))]
     Read {
         /// Which one.
         path: PathBuf,

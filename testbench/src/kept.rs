@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::Path;
-use wheatstone_golden::files::{self, WriteError};
+use wheatstone_golden::files::{self, Scratch, WriteError};
 
 /// The file of a folder that has the digest of the others.
 const DIGEST: &str = "blake3";
@@ -108,6 +108,19 @@ pub(crate) fn is_whole_object(content: &[u8]) -> bool {
     let is_64_little = content.get(4..6) == Some(&[2, 1]);
     let is_to_its_end = end().is_some_and(|end| end <= content.len() as u64);
     content.len() >= 64 && content.starts_with(b"\x7fELF") && (!is_64_little || is_to_its_end)
+}
+
+/// Name of the copy of an object that is loaded.
+pub(crate) const COPY: &str = "model.so";
+
+/// A folder with a copy of an object beside its own folder. The loader maps it, and what is no longer there would
+/// be a deadly signal: of a copy without a name nobody can cut anything off. No copy has the name of another
+/// one, as the loader takes two of one name for the same.
+pub(crate) fn copy(object: &Path, content: &[u8]) -> io::Result<Scratch> {
+    let cache = object.parent().and_then(Path::parent).unwrap_or(Path::new("."));
+    let scratch = Scratch::new(cache).or_else(|_| Scratch::new(&std::env::temp_dir()))?;
+    fs::write(scratch.path().join(COPY), content)?;
+    Ok(scratch)
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@
 
 use crate::cover::Collector;
 use crate::cursors::{Cursor, Cursors, Words};
+use crate::kept;
 use crate::layout::{Layout, Probe, CLOCK, RESET};
 use crate::watch::Watched;
 use libloading::Library as Object;
@@ -20,8 +21,8 @@ use std::path::{Path, PathBuf};
 use std::ptr::NonNull;
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
-use wheatstone_golden::files::Scratch;
 use wheatstone_golden::interface::{Direction, Interface};
+use wheatstone_golden::text::printable_path;
 
 type Handle = *mut c_void;
 
@@ -72,7 +73,7 @@ api! {
 #[derive(Debug, Error)]
 pub enum LoadError {
     /// The dynamic linker refused the shared object.
-    #[error("cannot load {}: {source}", .path.display())]
+    #[error("cannot load {}: {source}", printable_path(.path))]
     Object {
         /// The file.
         path: PathBuf,
@@ -80,7 +81,7 @@ pub enum LoadError {
         source: libloading::Error,
     },
     /// There is no room for a copy of it.
-    #[error("cannot copy {}: {source}", .path.display())]
+    #[error("cannot copy {}: {source}", printable_path(.path))]
     Copy {
         /// The file.
         path: PathBuf,
@@ -88,7 +89,7 @@ pub enum LoadError {
         source: std::io::Error,
     },
     /// The file is not the one that was built.
-    #[error("{} is not the model it should be; delete it", .path.display())]
+    #[error("{} is not the model it should be; delete it", printable_path(.path))]
     Stale {
         /// The file.
         path: PathBuf,
@@ -108,7 +109,7 @@ pub enum LoadError {
 
 /// A trace file could not be opened.
 #[derive(Debug, Error)]
-#[error("cannot write the waveform {}", .path.display())]
+#[error("cannot write the waveform {}", printable_path(.path))]
 pub struct TraceError {
     /// The file.
     pub path: PathBuf,
@@ -150,10 +151,10 @@ impl Library {
         }
         let at = |source| LoadError::Object { path: path.to_owned(), source };
         let _watched = Watched::new(interface.module);
-        let private = private(path, content)
+        let private = kept::copy(path, content)
             .map_err(|source| LoadError::Copy { path: path.to_owned(), source })?;
         // SAFETY: the object's initialisers are those of Verilator's runtime and the C++ library.
-        let object = unsafe { Object::new(private.path().join(COPY)) }.map_err(at)?;
+        let object = unsafe { Object::new(private.path().join(kept::COPY)) }.map_err(at)?;
         drop(private);
         // SAFETY: every shim has this function; a foreign object lacks it and is refused.
         let found = unsafe {
@@ -200,19 +201,6 @@ impl Library {
     pub(crate) fn is(&self, other: &Library) -> bool {
         Arc::ptr_eq(&self.loaded, &other.loaded)
     }
-}
-
-/// Name of the copy of an object that is loaded.
-const COPY: &str = "model.so";
-
-/// A folder with a copy of an object beside its own folder. The loader maps it, and what is no longer there would
-/// be a deadly signal: of a copy without a name nobody can cut anything off. No copy has the name of another
-/// one, as the loader takes two of one name for the same.
-fn private(object: &Path, content: &[u8]) -> std::io::Result<Scratch> {
-    let cache = object.parent().and_then(Path::parent).unwrap_or(Path::new("."));
-    let scratch = Scratch::new(cache).or_else(|_| Scratch::new(&std::env::temp_dir()))?;
-    std::fs::write(scratch.path().join(COPY), content)?;
-    Ok(scratch)
 }
 
 /// What was seen in a cycle; bits are streams.

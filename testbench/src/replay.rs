@@ -12,6 +12,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 use wheatstone_golden::files::Scratch;
+use wheatstone_golden::text::printable_path;
 use wheatstone_process::{Output, Process, ProcessError};
 
 /// How a pack is replayed.
@@ -66,10 +67,10 @@ pub enum ReplayError {
     #[error(transparent)]
     Pack(#[from] PackError),
     /// The pack is another one than was checked before.
-    #[error("{}: changed since it was checked; try again", .0.display())]
+    #[error("{}: changed since it was checked; try again", printable_path(.0))]
     Changed(PathBuf),
     /// A file or folder could not be read or written.
-    #[error("{}: {source}", .path.display())]
+    #[error("{}: {source}", printable_path(.path))]
     File {
         /// Which one.
         path: PathBuf,
@@ -80,7 +81,7 @@ pub enum ReplayError {
     #[error(transparent)]
     Process(#[from] ProcessError),
     /// A tool refused what it was given, or gave no verdict.
-    #[error("{tool} failed on {}:\n{said}", .pack.display())]
+    #[error("{tool} failed on {}:\n{said}", printable_path(.pack))]
     Failed {
         /// Which tool.
         tool: &'static str,

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::printable_path;
 
 /// Where it is in the workspace.
 pub const FILE: &str = "testbench/verification.json";
@@ -47,7 +48,7 @@ impl Replay {
 
 /// The record could not be read.
 #[derive(Debug, Error)]
-#[error("{}: {why}; write it with: wheatstone cover --record && wheatstone replay --record", .path.display())]
+#[error("{}: {why}; write it with: wheatstone cover --record && wheatstone replay --record", printable_path(.path))]
 pub struct VerificationError {
     path: PathBuf,
     why: String,

@@ -24,6 +24,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 use wheatstone_golden::files::{publish, Lock, LockError, Scratch};
 use wheatstone_golden::interface::Interface;
+use wheatstone_golden::text::printable_path;
 use wheatstone_process::{Process, ProcessError};
 
 /// Flags of every translation; `-fno-…` against wrong code of Verilator 5.006 (its issue #4832).
@@ -123,7 +124,7 @@ pub enum BuildError {
     #[error(transparent)]
     Tool(#[from] ToolError),
     /// A Verilog file could not be read.
-    #[error("cannot read {}: {source}", .path.display())]
+    #[error("cannot read {}: {source}", printable_path(.path))]
     Source {
         /// The file or folder.
         path: PathBuf,
@@ -131,7 +132,7 @@ pub enum BuildError {
         source: io::Error,
     },
     /// The cache could not be written.
-    #[error("cannot write {}: {source}", .path.display())]
+    #[error("cannot write {}: {source}", printable_path(.path))]
     Cache {
         /// The file or folder.
         path: PathBuf,
@@ -145,7 +146,7 @@ pub enum BuildError {
     #[error(transparent)]
     Process(#[from] ProcessError),
     /// A tool refused the module.
-    #[error("{tool} failed on {module}:\n{lines}\n(all of it: {})", .log.display())]
+    #[error("{tool} failed on {module}:\n{lines}\n(all of it: {})", printable_path(.log))]
     Failed {
         /// Which tool.
         tool: &'static str,
@@ -426,11 +427,9 @@ impl Job<'_> {
         command.args(["-o", OBJECT, "-pthread", "-lz"]);
         let object = temporary.join(OBJECT);
         let content = run(command, "g++", module, &log, &object, kept::is_whole_object)?;
-        for part in ["cpp", "rtl", "probes.vlt", "print.h"] {
-            let path = temporary.join(part);
-            let removed =
-                if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
-            removed.map_err(|source| BuildError::Cache { path, source })?;
+        for path in ["cpp", "rtl", "probes.vlt", "print.h"].map(|part| temporary.join(part)) {
+            let remove = if path.is_dir() { fs::remove_dir_all } else { fs::remove_file };
+            remove(&path).map_err(|source| BuildError::Cache { path, source })?;
         }
         Ok(content)
     }

@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use wheatstone_golden::files::{Scratch, Set, WriteError};
 use wheatstone_golden::interface::{Direction, Field, Interface, Kind, Stream};
+use wheatstone_golden::text::printable_path;
 
 /// Room that a dump must have while it is written; the largest take a hundredth of it.
 const ROOM: usize = 32 << 20;
@@ -51,7 +52,7 @@ pub struct ViewFiles {
 #[derive(Debug, Error)]
 pub enum WaveError {
     /// The dump could not be read.
-    #[error("cannot read the waveform {}: {why}", .path.display())]
+    #[error("cannot read the waveform {}: {why}", printable_path(.path))]
     Dump {
         /// The dump.
         path: PathBuf,
@@ -59,10 +60,10 @@ pub enum WaveError {
         why: String,
     },
     /// The dump has no values: it was never completed, or its window was never reached.
-    #[error("the waveform {} is empty", .0.display())]
+    #[error("the waveform {} is empty", printable_path(.0))]
     Empty(PathBuf),
     /// There is no room to write a dump.
-    #[error("no room for waveforms in {} ({} MiB are wanted): {source}", .folder.display(), ROOM >> 20)]
+    #[error("no room for waveforms in {} ({} MiB are wanted): {source}", printable_path(.folder), ROOM >> 20)]
     Room {
         /// The temporary folder.
         folder: PathBuf,
@@ -70,7 +71,7 @@ pub enum WaveError {
         source: io::Error,
     },
     /// A file could not be written.
-    #[error("cannot write {}: {source}", .path.display())]
+    #[error("cannot write {}: {source}", printable_path(.path))]
     Write {
         /// The file.
         path: PathBuf,

@@ -1,5 +1,6 @@
 //! A lock between threads and processes that says what it waits for.
 
+use crate::text::printable_path;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ const PAUSE: Duration = Duration::from_millis(20);
 
 /// A lock was not had.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be locked: {source}", .file.display())]
+#[error("{}: cannot be locked: {source}", printable_path(.file))]
 pub struct LockError {
     /// The lock file.
     pub file: PathBuf,

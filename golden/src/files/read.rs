@@ -1,5 +1,6 @@
 //! Reading what a stranger may have made.
 
+use crate::text::printable_path;
 use std::fs::{self, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::os::unix::fs::OpenOptionsExt;
@@ -7,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a file was not read.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be read: {source}", .file.display())]
+#[error("{}: cannot be read: {source}", printable_path(.file))]
 pub struct ReadError {
     /// The file.
     pub file: PathBuf,

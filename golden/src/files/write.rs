@@ -1,6 +1,7 @@
 //! Writing a file that is whole or not there.
 
 use super::scratch::{self, Tidy};
+use crate::text::printable_path;
 use rustix::event::{poll, PollFd, PollFlags, Timespec};
 use rustix::fs::OFlags;
 use std::fs::{self, File, Metadata, OpenOptions};
@@ -17,7 +18,7 @@ const LINKS: usize = 40;
 
 /// Why a file was not written.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be written: {source}", .file.display())]
+#[error("{}: cannot be written: {source}", printable_path(.file))]
 pub struct WriteError {
     /// The file.
     pub file: PathBuf,

@@ -50,7 +50,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
         let is_method =
             |name: &str| METHODS.iter().any(|m| name.strip_suffix(".png") == Some(m.name));
         set.finish("direct.png", is_method)?;
-        files.iter().for_each(|file| say!("image {}", file.display()));
+        files.iter().for_each(|file| say!("image {}", printable_path(file)));
     }
     if let Some(file) = &args.json {
         let content = serde_json::json!({

@@ -140,7 +140,7 @@ fn write(args: &CosimArgs, entries: &[Entry], command: &str, out: &Path) -> Resu
     }
     for entry in entries {
         for file in pictures(entry, out)? {
-            say!("image {}", file.display());
+            say!("image {}", printable_path(&file));
         }
     }
     Ok(())

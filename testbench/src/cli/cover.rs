@@ -81,7 +81,7 @@ fn waivers() -> Result<Vec<Waiver>, Failure> {
         return Ok(Vec::new());
     };
     let text = fs::read_to_string(&file)
-        .map_err(|error| Failure::Input(format!("{}: {error}", file.display())))?;
+        .map_err(|error| Failure::Input(format!("{}: {error}", printable_path(&file))))?;
     Ok(Waiver::parse(&text).map_err(cover::CoverError::from)?)
 }
 
@@ -117,7 +117,7 @@ fn annotate(out: &Path, rtl: &Path, counts: &Counts, report: &Report) -> Result<
     for name in report.files.keys() {
         let source = rtl.join(name);
         let text = fs::read_to_string(&source)
-            .map_err(|error| Failure::Input(format!("{}: {error}", source.display())))?;
+            .map_err(|error| Failure::Input(format!("{}: {error}", printable_path(&source))))?;
         let file = set.path().join(format!("{name}.txt"));
         files::write(&file, cover::annotated(name, &text, counts, report).as_bytes())?;
     }

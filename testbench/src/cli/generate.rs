@@ -20,7 +20,7 @@ pub(super) fn run(args: &GenerateArgs) -> Result<u8, Failure> {
         let path = generated.path();
         let file = root.join(&path);
         let present = std::fs::read_to_string(&file)
-            .map_err(|error| Failure::Input(format!("{}: {error}", file.display())))?;
+            .map_err(|error| Failure::Input(format!("{}: {error}", printable_path(&file))))?;
         let renewed = generated.renewed(&present, &root)?;
         if renewed == present {
             continue;

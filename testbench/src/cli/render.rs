@@ -112,7 +112,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     }
     let files: Vec<PathBuf> = files.iter().map(|file| set.named(file)).collect();
     set.finish("left.png", is_composite)?;
-    files.iter().for_each(|file| say!("image {}", file.display()));
+    files.iter().for_each(|file| say!("image {}", printable_path(file)));
     Ok(OK)
 }
 

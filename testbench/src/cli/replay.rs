@@ -166,11 +166,11 @@ fn found(folder: &Path, targets: &[Target]) -> Result<Vec<Named>, Failure> {
     };
     let packs = pack::check(folder)?.into_iter().filter(is_wanted);
     let packs: Vec<Named> = packs
-        .map(|pack| Named { label: pack.folder.display().to_string(), config: String::new(), pack })
+        .map(|pack| Named { label: printable_path(&pack.folder), config: String::new(), pack })
         .collect();
     if packs.is_empty() {
         let names = targets.iter().map(|t| t.name()).collect::<Vec<_>>().join(", ");
-        return Err(Failure::Input(format!("{}: no pack of {names}", folder.display())));
+        return Err(Failure::Input(format!("{}: no pack of {names}", printable_path(folder))));
     }
     Ok(packs)
 }

@@ -43,7 +43,7 @@ pub(super) fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
         Event::End(report, time) => spinner.print(|| {
             say!("{}, {}: {time:.1?}\n", report.experiment, report.publication);
             report.tables.iter().for_each(|table| say!("{table}"));
-            report.files.iter().for_each(|file| say!("file {}", file.display()));
+            report.files.iter().for_each(|file| say!("file {}", printable_path(file)));
         }),
     });
     drop(spinner);

@@ -51,7 +51,7 @@ pub(super) fn run(args: &RigArgs) -> Result<u8, Failure> {
         let files = volume.plots(set.path())?;
         let files: Vec<PathBuf> = files.iter().map(|file| set.named(file)).collect();
         set.finish("distance_map.svg", |_| false)?;
-        files.iter().for_each(|file| say!("file {}", file.display()));
+        files.iter().for_each(|file| say!("file {}", printable_path(file)));
     }
     if let Some(file) = &args.json {
         let mut content = volume.json(at);

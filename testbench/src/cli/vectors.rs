@@ -182,7 +182,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
             None => say!("{sound}; no Verilog here to compare with"),
             Some(rtl) if pack::rtl_hash(rtl, &manifest.module)? == manifest.rtl_blake3 => {
                 let file = rtl.join(&manifest.module).with_extension("v");
-                say!("{sound}, matches {}", file.display());
+                say!("{sound}, matches {}", printable_path(&file));
             }
             Some(rtl) => {
                 say!(

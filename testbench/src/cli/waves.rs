@@ -94,7 +94,12 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
             _ => format!("--polygon: {name} does not draw this polygon"),
         }));
     };
-    say!("{}: cycles {} to {}", waves.file.display(), waves.cycles.start(), waves.cycles.end());
+    say!(
+        "{}: cycles {} to {}",
+        printable_path(&waves.file),
+        waves.cycles.start(),
+        waves.cycles.end()
+    );
     if let Some(marker) = waves.marker {
         say!("marker on cycle {marker}");
     }

@@ -6,6 +6,7 @@ use std::io;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use wheatstone_golden::files::{self, Scratch};
+use wheatstone_golden::text::printable_path;
 
 /// How long another writer of packs is waited for.
 const LIMIT: Duration = Duration::from_secs(60);
@@ -48,7 +49,9 @@ fn lock(folder: &Path, limit: Duration) -> Result<File, PackError> {
             Err(TryLockError::Error(_)) => return Ok(file),
         }
         if !told && start.elapsed() >= PATIENCE {
-            eprintln!("{}: waiting for another process that puts a pack here", folder.display());
+            let folder = printable_path(folder);
+            let text = format!("{folder}: waiting for another process that puts a pack here");
+            wheatstone_process::tell(&text);
             told = true;
         }
         std::thread::sleep(Duration::from_millis(20));

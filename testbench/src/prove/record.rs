@@ -7,6 +7,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 use wheatstone_golden::files::{self, WriteError};
+use wheatstone_golden::text::printable_path;
 
 /// Where it is in the workspace.
 pub const FILE: &str = "formal/record.json";
@@ -64,7 +65,7 @@ impl Compared {
 
 /// The record could not be read.
 #[derive(Debug, Error)]
-#[error("{}: {why}; write it with: wheatstone prove --record", .path.display())]
+#[error("{}: {why}; write it with: wheatstone prove --record", printable_path(.path))]
 pub struct RecordError {
     /// The file.
     pub path: PathBuf,

@@ -17,6 +17,7 @@ use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::pipeline::{Mode, Op, Pixel, PrimaryBeat, Request, Setup};
 use wheatstone_golden::record::Recording;
 use wheatstone_golden::targets::unit_of;
+use wheatstone_golden::text::printable_path;
 
 /// Cycles shown before a difference.
 const BEFORE: u64 = 100;
@@ -340,7 +341,7 @@ impl fmt::Display for Failure {
             line("waveforms", Some(&format!("failed because {error}")))?;
         }
         if let Some(waves) = &self.waves {
-            line("waveforms", Some(&waves.display()))?;
+            line("waveforms", Some(&printable_path(waves)))?;
             let view = waves.with_extension("gtkw");
             let command = command_line(["gtkwave", &view.to_string_lossy()]);
             line("open with", Some(&command))?;

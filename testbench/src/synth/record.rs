@@ -10,6 +10,7 @@ use thiserror::Error;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::printable_path;
 
 /// Where it is in the workspace.
 pub const FILE: &str = "synth/record.json";
@@ -86,7 +87,7 @@ pub fn thousands(value: f64) -> String {
 
 /// The record could not be read.
 #[derive(Debug, Error)]
-#[error("{}: {why}; {remedy}", .path.display())]
+#[error("{}: {why}; {remedy}", printable_path(.path))]
 pub struct RecordError {
     /// The file.
     pub path: PathBuf,
