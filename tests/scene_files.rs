@@ -347,9 +347,11 @@ fn faces_of_all_layouts_and_continued_lines_are_read() {
         g b\nl 1 2\nf 1 2 3\nf 1//1 2//1 3//1\nf 1/1 2/1 3/1\nf 1/1/1 3/1/1 4/1/-1\ns off\nf 1 2 3 4\n";
     let scene = load(&folder.put("mixed.obj", text)).expect("well-formed");
     let triangles: usize = scene.meshes.iter().map(|m| m.triangles.len()).sum();
-    assert_eq!(triangles, 6);
+    assert_eq!(triangles, 8);
     let seen = geometry(&scene, Cull::Back);
-    assert_eq!(seen.polygons.iter().map(|p| p.id).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 4]);
+    // Faces, then the line.
+    let ids: Vec<u32> = seen.polygons.iter().map(|p| p.id).collect();
+    assert_eq!(ids, [0, 1, 2, 3, 4, 4, 5, 5]);
     assert!(scene.meshes.iter().all(|m| m.normals.iter().all(|n| *n == [0.0, 0.0, -1.0])));
 }
 

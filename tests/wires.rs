@@ -287,3 +287,37 @@ fn wire_frames_of_scenes_are_drawn_as_directly() {
         }
     }
 }
+
+#[test]
+fn lines_of_a_file_are_drawn_as_wire_frames_are() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("m.obj");
+    let opened = |text: &str| {
+        std::fs::write(&file, text).expect("written");
+        open(&file.display().to_string(), Some(SIZE), None).expect("well-formed")
+    };
+    let frame = "v -2 -1 0 1 0 0\nv 2 -1 0 1 0 0\nv 2 1 0 1 0 0\nv -2 1 0 1 0 0\nl 1 2 3 4 1\n";
+    let alone = opened(frame);
+    let [direct, derived] = views(&alone);
+    assert!(direct == derived);
+    for frame in &direct {
+        // Four sides of 128 by 64 pixels, unlit, each with its id.
+        let lit = frame.colour.iter().filter(|&&colour| colour == [255, 0, 0]).count();
+        assert!((2 * (96 + 48) - 8..2 * (96 + 48) + 8).contains(&lit), "{lit}");
+        let ids: std::collections::BTreeSet<u32> = frame.id.iter().copied().collect();
+        assert_eq!(ids.len(), 5);
+    }
+    // They are their own wire frame.
+    let wires = wire_frame(&alone).expect("a legal scene");
+    assert!(views(&wires)[0] == direct);
+    // Before a face the lines have the ids after it; placed together they stay on its edges.
+    let face = "v -2 -1 0\nv 2 -1 0\nv 2 1 0\nv -2 1 0\nf 1 2 3 4\nl 1 3\n";
+    let mixed = opened(face);
+    assert_eq!(mixed.meshes.iter().map(|mesh| mesh.lines).collect::<Vec<_>>(), [false, true]);
+    let ends = mixed.meshes[0].positions.iter().map(|p| p[0]).fold(0.0, f64::max);
+    assert!(mixed.meshes[1].positions.iter().all(|p| p[0].abs() <= ends + 1.0));
+    let [direct, derived] = views(&mixed);
+    assert!(direct == derived);
+    let wires = wire_frame(&mixed).expect("a legal scene");
+    assert_eq!(wires.meshes.iter().map(Mesh::id_count).collect::<Vec<_>>(), [4, 1]);
+}

@@ -31,6 +31,8 @@ use std::rc::Rc;
 struct Surface {
     id: u32,
     texture: Option<u32>,
+    /// Lines have no back that could be culled.
+    lines: bool,
 }
 
 /// A lens of the camera with the planes that polygons are cut by.
@@ -147,17 +149,21 @@ impl<'a> Builder<'a> {
                 ..Corner::default()
             });
             let id = first_id + mesh.triangle_ids.get(n).copied().unwrap_or(n as u32);
-            self.partitioned(&corners, Surface { id, texture }, |partition, corners| {
-                let colours = shadings[partition].triangle(n);
-                corners.iter_mut().zip(colours).for_each(|(c, colour)| c.colour = colour);
-            });
+            self.partitioned(
+                &corners,
+                Surface { id, texture, lines: mesh.lines },
+                |partition, corners| {
+                    let colours = shadings[partition].triangle(n);
+                    corners.iter_mut().zip(colours).for_each(|(c, colour)| c.colour = colour);
+                },
+            );
         }
         let first_face = first_id + mesh.triangle_id_count() as u32;
         for (n, face) in mesh.faces.iter().enumerate() {
             let corner =
                 |&k: &u32| Corner { position: mesh.positions[k as usize], ..Corner::default() };
             let corners: Vec<Corner> = face.iter().map(corner).collect();
-            let surface = Surface { id: first_face + n as u32, texture: None };
+            let surface = Surface { id: first_face + n as u32, texture: None, lines: false };
             for piece in convex_pieces(corners) {
                 self.partitioned(&piece, surface, |partition, corners| {
                     let colour = shadings[partition].face(n);
@@ -258,7 +264,7 @@ impl<'a> Builder<'a> {
 
     /// A polygon within the guard band of both views.
     fn binocular(&mut self, corners: &[Corner], points: &[Snapped], cut: bool, surface: Surface) {
-        let culled = Eye::BOTH.map(|eye| self.is_culled(points, eye));
+        let culled = Eye::BOTH.map(|eye| self.is_culled(points, eye, surface));
         let eyes = match culled {
             [false, false] => Eyes::Both,
             [false, true] => Eyes::One(Eye::Left),
@@ -292,7 +298,7 @@ impl<'a> Builder<'a> {
             }
             if points.is_empty() {
                 self.counts.outside += 1;
-            } else if self.is_culled(&points, eye) {
+            } else if self.is_culled(&points, eye, surface) {
                 culled += usize::from(!self.has_no_area(&corners, &points, &[eye], surface.id));
             } else {
                 let base = Polygon {
@@ -309,8 +315,8 @@ impl<'a> Builder<'a> {
         self.counts.culled += usize::from(culled == 2);
     }
 
-    fn is_culled(&self, points: &[Snapped], eye: Eye) -> bool {
-        self.options.cull == Cull::Back && doubled_area(points, eye) <= 0
+    fn is_culled(&self, points: &[Snapped], eye: Eye, surface: Surface) -> bool {
+        self.options.cull == Cull::Back && !surface.lines && doubled_area(points, eye) <= 0
     }
 
     /// Hands on a polygon, whole or as a fan of triangles.

@@ -47,6 +47,9 @@ pub struct Mesh {
     pub faces: Vec<Vec<u32>>,
     /// Index of the material in the scene.
     pub material: u32,
+    /// The triangles are lines, as [`super::wires::mesh`] makes them: they show their colours as they
+    /// are, without light, and are their own wire frame.
+    pub lines: bool,
 }
 
 impl Mesh {
@@ -71,7 +74,7 @@ impl Mesh {
         if let Some(at) = self.positions.iter().position(|p| !legal(p)) {
             return wrong("positions", format!("vertex {at} is not finite or too far away"));
         }
-        let lit_triangles = lit && !self.triangles.is_empty();
+        let lit_triangles = lit && !self.lines && !self.triangles.is_empty();
         if self.normals.len() != vertices && (lit_triangles || !self.normals.is_empty()) {
             return wrong("normals", format!("{} for {vertices} vertices", self.normals.len()));
         }

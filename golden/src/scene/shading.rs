@@ -1,6 +1,6 @@
 //! Colours of the corners of a mesh, lit once a vertex and side.
 
-use super::light::{Material, Point};
+use super::light::{Lighting, Material, Point};
 use super::mesh::{face_normal, outside, Colours, Mesh};
 use super::vector::{add, dot, scale, sub, Vec3};
 use super::Scene;
@@ -36,7 +36,7 @@ impl<'a> Shading<'a> {
     pub fn triangle(&mut self, n: usize) -> [Colour; 3] {
         let mesh = self.mesh;
         let triangle = mesh.triangles[n];
-        let inside = self.scene.lighting.is_some() && {
+        let inside = self.light().is_some() && {
             let corners = triangle.map(|k| mesh.positions[k as usize]);
             let normal = outside(corners, triangle.map(|k| mesh.normals[k as usize]));
             dot(normal, sub(self.middle, corners[0])) < 0.0
@@ -68,6 +68,11 @@ impl<'a> Shading<'a> {
         self.lit(Point { position, normal, base })
     }
 
+    /// What lights the mesh.
+    fn light(&self) -> Option<&'a Lighting> {
+        self.scene.lighting.as_ref().filter(|_| !self.mesh.lines)
+    }
+
     /// Base colour of a corner, 0 to 1.
     fn base(&self, vertex: usize, polygon: usize) -> Vec3 {
         match &self.mesh.colours {
@@ -84,7 +89,7 @@ impl<'a> Shading<'a> {
     }
 
     fn lit(&self, point: Point) -> Colour {
-        let colours = match &self.scene.lighting {
+        let colours = match self.light() {
             Some(light) => light.shade(&point, self.material, &self.scene.environment, self.eyes),
             None => [point.base.map(|n| n * 255.0); 2],
         };

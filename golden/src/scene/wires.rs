@@ -45,6 +45,7 @@ pub fn mesh(lines: &[Line], camera: &Camera) -> Mesh {
         }
     }
     mesh.colours = Colours::Vertex(colours);
+    mesh.lines = true;
     mesh
 }
 
@@ -109,21 +110,23 @@ fn corners(ends: [Vec3; 2], lens: &Lens) -> [Vec3; 4] {
 /// colours that the polygons have at their ends, lit, for both eyes alike, without texture.
 ///
 /// Edges between triangles of one polygon are left out, and edges of several polygons are drawn
-/// once, in the colour of the first.
+/// once, in the colour of the first. Lines stay as they are, and come last.
 pub fn wire_frame(scene: &Scene) -> Result<Scene, SceneError> {
     scene.check()?;
     let mut edges = Edges::default();
-    for mesh in &scene.meshes {
+    for mesh in scene.meshes.iter().filter(|mesh| !mesh.lines) {
         edges.add_mesh(scene, mesh);
     }
     // The snapping of this camera is not used.
     let formats = Formats::new(&Config::DEFAULT);
     let camera = Camera::new(&scene.rig, scene.width, scene.height, &formats);
+    let lines = scene.meshes.iter().filter(|mesh| mesh.lines).cloned();
+    let meshes = [mesh(&edges.lines(), &camera)].into_iter().chain(lines);
     Ok(Scene {
         lighting: None,
         materials: vec![Material::default()],
         textures: Vec::new(),
-        meshes: vec![mesh(&edges.lines(), &camera)],
+        meshes: meshes.map(|mesh| Mesh { material: 0, ..mesh }).collect(),
         ..scene.clone()
     })
 }

@@ -116,7 +116,7 @@ impl Model {
                 }
                 Colours::Face(_) => return Err(RendererError::Mesh { mesh: number }),
             };
-            if !dull || texture.is_some() || !mesh.faces.is_empty() {
+            if !dull || texture.is_some() || !mesh.faces.is_empty() || mesh.lines {
                 return Err(RendererError::Mesh { mesh: number });
             }
             let first = model.points.len() as u32;

@@ -4,7 +4,7 @@
 //!
 //! - OBJ is right-handed, z towards the viewer. Its z is turned round, which leaves everything
 //!   where it is: front faces stay counter-clockwise as seen.
-//! - Ids count the faces of the file; all triangles of a face have its id.
+//! - Ids count the faces of the file, then its lines; all triangles of a face have its id.
 //! - Corners without normals get the mean of the triangles round them that meet at 60 degrees or
 //!   less.
 //! - Names of materials and indices are resolved when the whole file is read. What cannot be
@@ -15,6 +15,7 @@
 
 mod convert;
 mod find;
+mod lines;
 mod material;
 mod parse;
 mod picture;
@@ -25,7 +26,7 @@ mod tests;
 pub use picture::{TEXELS_LIMIT, TEXTURE_LIMIT};
 
 use super::error::{no_text, read, SceneError};
-use super::place::{place, Placement};
+use super::place::Placement;
 use super::warning::Warnings;
 use super::{Lighting, Rig, Scene, DEFAULT_SIZE};
 use crate::text::decode_with_latin1;
@@ -63,6 +64,7 @@ pub fn load(file: &Path, mut scene: Scene, placement: &Placement) -> Result<Scen
     scene.meshes = convert::meshes(file, &mut parsed, &looks, &mut warnings);
     scene.textures = pictures.textures;
     scene.warnings = warnings;
-    place(&mut scene, placement);
+    let lines = lines::lines(&parsed, &looks, &scene.materials);
+    lines::place_with_lines(&mut scene, lines, placement);
     Ok(scene)
 }

@@ -76,10 +76,11 @@ pub struct Parsed {
 }
 
 impl Parsed {
-    /// The names of the materials, in place of those that no face has none.
+    /// The names of the materials, in place of those that no face and no line has none.
     pub fn used(&self) -> Vec<Option<&Name>> {
         let mut used = vec![None; self.materials.len()];
-        for element in self.faces.iter().filter(|element| element.material != NONE) {
+        let elements = self.faces.iter().chain(&self.lines);
+        for element in elements.filter(|element| element.material != NONE) {
             let index = element.material as usize;
             used[index] = Some(&self.materials[index]);
         }
