@@ -22,10 +22,12 @@ fn main() -> Result<(), Failure> {
     let materials: String =
         (0..100_000).fold(String::new(), |text, n| text + &format!("newmtl m{n}\nKd 1 0 0\n"));
     fs::write(folder.path().join("m.mtl"), materials)?;
-    let cases: [(&str, usize, Make); 6] = [
+    let cases: [(&str, usize, Make); 8] = [
         ("lines that name one library", 5_000, |n| "mtllib m.mtl\n".repeat(n) + TRIANGLE),
         ("lines that name missing libraries", 2_500, missing),
         ("corners of one face", 25_000, polygon),
+        ("corners of one concave face", 25_000, star),
+        ("corners of one tangled face", 25_000, tangle),
         ("changes of material", 7_500, changes),
         ("faces round one vertex", 10_000, fan),
         ("faces of a grid", 50_000, grid),
@@ -79,9 +81,30 @@ fn circle(count: usize) -> String {
     text
 }
 
+/// A face of vertices in an order.
+fn face(vertices: String, order: impl Iterator<Item = usize>) -> String {
+    let indices = order.fold("f".to_string(), |text, n| text + &format!(" {n}"));
+    vertices + &indices + "\n"
+}
+
 fn polygon(corners: usize) -> String {
-    let indices = (1..=corners).fold("f".to_string(), |text, n| text + &format!(" {n}"));
-    circle(corners) + &indices + "\n"
+    face(circle(corners), 1..=corners)
+}
+
+/// Every other corner is half as far out.
+fn star(corners: usize) -> String {
+    let mut text = String::new();
+    for (n, line) in circle(corners).lines().enumerate() {
+        let far = if n % 2 == 0 { 1.0 } else { 2.0 };
+        // The fourth number of a vertex divides the others.
+        let _ = writeln!(text, "{line} {far}");
+    }
+    face(text, 1..=corners)
+}
+
+/// Chords of a circle: all cross each other.
+fn tangle(corners: usize) -> String {
+    face(circle(corners), (0..corners).map(|n| n * (corners / 2 - 1) % corners + 1))
 }
 
 fn changes(count: usize) -> String {
