@@ -87,7 +87,7 @@ const OPTIONS: [&str; 5] = [
     "render --scene s.obj --rig r.json --size 24x16 --method direct --stereo anaglyph,wiggle --dpi 100 --out out",
     "render --scene s.obj --config paper --param filter=2 --cull back --wire --projection shear --out out",
     "rig --scene s.obj --rig r.json --at 1,2.5 --projection piecewise --json out.json",
-    "vectors sampler --seed 3 --beats 5 --config full --param subpixel_bits=4 --out out",
+    "vectors filter --seed 3 --beats 5 --config paper --param filter=3 --out out",
     "list --json",
 ];
 
