@@ -272,9 +272,16 @@ fn symmetric_clipping_leaves_a_strip_blank() {
                     assert_eq!(cut[e].id[n], id, "{eye:?} {x} {y}");
                     let [u, v] = placement.place(x as i64, y as i64);
                     let [column, line] = [u, v].map(|n| Coordinate::new(n, &planner.formats));
-                    let depth = cleared.fetch(eye, column, line).depth.raw();
-                    let expected = if strip.contains(&x) { 0 } else { DEPTH_MAX };
-                    assert_eq!(depth, i64::from(expected), "{arrangement:?} {eye:?} {x} {y}");
+                    // A closed column answers as the picture is there.
+                    let answer = cleared.fetch(eye, column, line);
+                    let depth = i64::from(DEPTH_MAX);
+                    assert_eq!(answer.depth.raw(), depth, "{arrangement:?} {eye:?} {x} {y}");
+                    if strip.contains(&x) {
+                        assert_eq!(answer.rgb, cut[e].colour[n], "{arrangement:?} {eye:?} {x} {y}");
+                    }
+                    let [first, end, top, bottom] = cleared.open(eye).map(i64::from);
+                    let is_open = (first..end).contains(&u) && (top..bottom).contains(&v);
+                    assert_eq!(is_open, !strip.contains(&x), "{arrangement:?} {eye:?} {x} {y}");
                     let at = hybrid.eyes[e].index(u, v).expect("on the display");
                     assert_eq!(hybrid.eyes[e].id[at], id, "{arrangement:?} {eye:?} {x} {y}");
                     assert_eq!(hybrid.eyes[e].depth[at], cut[e].depth[n]);

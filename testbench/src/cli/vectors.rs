@@ -145,10 +145,10 @@ fn scene(
     beats: usize,
 ) -> Result<(Case, SceneOrigin), Failure> {
     let common = &args.common;
+    let opened = common.open(name, common.view.size)?;
     let is_file = builtin_names().all(|builtin| builtin != name);
     let file = is_file.then(|| scene::read(Path::new(name))).transpose()?;
-    let scene = common.open(name, common.view.size)?;
-    let geometry = drawn(name, common.geometry_of(&scene, settings)?)?;
+    let geometry = drawn(name, common.geometry_of(&opened, settings)?)?;
     let whole = job(settings, &geometry, settings.options);
     let job = target.job(&whole);
     let head = scene_head(target, &job, name, beats)
@@ -156,7 +156,7 @@ fn scene(
     let drawn = Drawn {
         name,
         file: file.as_deref(),
-        rig: &scene.rig,
+        rig: &opened.rig,
         settings,
         cull: common.cull == CullChoice::Back,
         wire: common.wire,
