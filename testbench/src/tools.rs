@@ -4,9 +4,9 @@
 pub use crate::doctor::{Doctor, Examined};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, ExitStatus};
 use thiserror::Error;
-use wheatstone_process::{Output, Process, ANSWER};
+use wheatstone_process::{Output, Process, ProcessError, ANSWER};
 
 /// A version of a tool: its first two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -74,9 +74,9 @@ impl Tool {
             .find(|program| program.is_file())
             .ok_or(ToolError::Missing(self))?;
         let text = match first_line(&program, self.version_arguments, path) {
-            Ok(text) => text,
-            Err(why) => {
-                let call = self.version_arguments.join(" ");
+            Ok((text, _)) => text.unwrap_or_default(),
+            Err(error) => {
+                let (call, why) = (self.version_arguments.join(" "), error.to_string());
                 return Err(ToolError::Call { tool: self, program, call, why });
             }
         };
@@ -322,25 +322,31 @@ pub enum ToolError {
     },
 }
 
-/// First non-empty line that a program prints on its standard output, or else on standard error; or
-/// why there is none.
-fn first_line(program: &Path, arguments: &[&str], path: &OsStr) -> Result<String, String> {
+/// First non-empty line that a program prints on its standard output, or else on standard error, and how it
+/// ended.
+fn first_line(
+    program: &Path,
+    arguments: &[&str],
+    path: &OsStr,
+) -> Result<(Option<String>, ExitStatus), ProcessError> {
     let name = program.file_name().unwrap_or_default().to_string_lossy();
     let mut command = Command::new(program);
     command.args(arguments).env("PATH", path);
     let call = Process::new(name, &mut command).on(arguments.join(" ")).within(ANSWER);
-    let output = call.run().map_err(|error| error.to_string())?;
+    let output = call.run()?;
     let line = [output.stdout, output.stderr].iter().find_map(|text| {
         let text = String::from_utf8_lossy(text);
         text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
     });
-    line.ok_or_else(|| format!("it printed nothing ({})", output.status))
+    Ok((line, output.status))
 }
 
 /// Verilator's folder with the C++ headers and sources that every model uses.
 pub(crate) fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
     let call = ["--getenv", "VERILATOR_ROOT"];
-    let root = first_line(&verilator.program, &call, path).and_then(|root| {
+    let answer = first_line(&verilator.program, &call, path).map_err(|error| error.to_string());
+    let root = answer.and_then(|(root, status)| {
+        let root = root.ok_or(format!("it printed nothing ({status})"))?;
         let include = Path::new(&root).join("include");
         let is_there = include.join("verilated.cpp").is_file();
         is_there
