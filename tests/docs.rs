@@ -54,18 +54,6 @@ fn every_page_is_in_the_list_of_pages() {
 }
 
 #[test]
-fn every_test_file_is_run() {
-    let declared =
-        [read("tests/Cargo.toml"), read("golden/Cargo.toml").replace("../tests/", "")].concat();
-    for entry in fs::read_dir(workspace().join("tests")).expect("tests can be listed") {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        let text = if name.ends_with(".rs") { read(format!("tests/{name}")) } else { continue };
-        let tests = text.contains("\n#[test]\n");
-        assert!(!tests || declared.contains(&format!("path = \"{name}\"")), "{name} never runs");
-    }
-}
-
-#[test]
 fn every_unit_has_model_verilog_test_and_page() {
     for target in Target::ALL {
         let name = target.name();
