@@ -144,10 +144,19 @@ impl Killer {
         fs::set_permissions(bin.join("g++"), mode)
     }
 
-    /// strace with these options, of the case's command.
+    /// strace with these options, of the case's command. The program would do its work in a child of its own, which
+    /// strace lets go as it does all programs that are called: so it is told that it is that child, of strace.
     fn strace(&self, case: &Case, options: &[&str], folder: &Path) -> Command {
-        let mut command = Command::new("strace");
-        command.args(["-f", "-qq"]).args(options).arg(&self.program).args(case.line.split(' '));
+        let mut command = Command::new("sh");
+        let record = self.scratch.join("record");
+        let script = "exec 9<>\"$0\"; WHEATSTONE_RECORD=/proc/$$/fd/9 exec strace \"$@\"";
+        command
+            .args(["-c", script])
+            .arg(record)
+            .args(["-f", "-qq"])
+            .args(options)
+            .arg(&self.program)
+            .args(case.line.split(' '));
         self.at_home(&mut command, folder);
         command
     }
