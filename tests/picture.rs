@@ -121,7 +121,7 @@ fn a_killed_program_leaves_a_whole_picture() {
     for round in 0..10 {
         let _ = fs::remove_file(&path);
         let mut child = Command::new(&program)
-            .args(["--exact", "write_until_killed", "--ignored"])
+            .args(["--exact", "picture::write_until_killed", "--ignored"])
             .env("WHEATSTONE_TEST_FOLDER", folder.path())
             .stdout(std::process::Stdio::null())
             .spawn()
