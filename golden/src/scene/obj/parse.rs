@@ -349,7 +349,7 @@ impl Reader<'_> {
         if self.parsed.faces.is_empty() && self.parsed.lines.is_empty() {
             let found = match count {
                 0 => "neither vertices nor faces".into(),
-                _ => format!("{count} vertices and no face; clouds of points are not drawn"),
+                _ => format!("{count} vertices and no face of three corners; points are not drawn"),
             };
             return Err(InputError::new(self.file, None, "f", "at least one face", found).into());
         }
