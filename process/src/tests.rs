@@ -47,9 +47,9 @@ fn one_that_hangs_is_killed_with_all_that_it_has_started() {
     let folder = std::env::temp_dir().join(format!("wheatstone-process-{}", std::process::id()));
     let script = format!("sleep 1000 & echo $! > '{}'; wait", folder.display());
     let mut command = sh(&script);
-    let process = Process::new("tool", &mut command).on("it").within(Duration::from_millis(500));
+    let process = Process::new("tool", &mut command).on("it").within(Duration::from_secs(3));
     let text = process.run().unwrap_err().to_string();
-    assert!(text.starts_with("tool on it did not end within 0 s; it was stopped"), "{text}");
+    assert!(text.starts_with("tool on it did not end within 3 s; it was stopped"), "{text}");
     assert!(text.contains("--timeout"), "{text}");
     let id = fs::read_to_string(&folder).unwrap();
     fs::remove_file(&folder).unwrap();
@@ -96,9 +96,13 @@ fn who_waits_is_told_what_for() {
     on_tell(|line| TOLD.lock().unwrap().push(line.to_owned()));
     let mut command = sh("sleep 1");
     let mut process = Process::new("tool", &mut command).on("it");
-    process.patience = Duration::from_millis(200);
+    process.patience = Duration::from_millis(50);
     assert!(process.run().unwrap().succeeded());
     let told = TOLD.lock().unwrap();
-    let expected = "waiting for tool on it: 0 s so far; it is stopped after 3600 s, see --timeout";
-    assert!(told.iter().filter(|line| *line == expected).count() >= 2, "{told:?}");
+    // How much time has passed by then is the machine's affair.
+    let is_line = |line: &&String| {
+        line.starts_with("waiting for tool on it: ")
+            && line.ends_with(" s so far; it is stopped after 3600 s, see --timeout")
+    };
+    assert!(told.iter().filter(is_line).count() >= 2, "{told:?}");
 }
