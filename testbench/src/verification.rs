@@ -58,9 +58,9 @@ impl Record {
     /// The record of a workspace.
     pub fn read(workspace: &Path) -> Result<Record, VerificationError> {
         let path = workspace.join(FILE);
-        let parsed = std::fs::read(&path)
+        let parsed = files::read_own(&path)
             .map_err(|error| error.to_string())
-            .and_then(|text| serde_json::from_slice(&text).map_err(|error| error.to_string()));
+            .and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
         parsed.map_err(|why| VerificationError { path, why })
     }
 

@@ -16,6 +16,17 @@ pub struct ReadError {
     pub source: io::Error,
 }
 
+/// Most bytes of a file of the project's own: of a record, a page, a library of cells.
+pub const OWN_LIMIT: u64 = 64 << 20;
+
+/// The text of one of the project's own files, of at most [`OWN_LIMIT`] bytes.
+///
+/// # Errors
+/// Those of [`read`], and of bytes that are no UTF-8.
+pub fn read_own(file: &Path) -> io::Result<String> {
+    String::from_utf8(bounded(file, OWN_LIMIT)?).map_err(io::Error::other)
+}
+
 /// The bytes of a regular file of at most `limit` bytes.
 ///
 /// # Errors

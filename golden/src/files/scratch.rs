@@ -114,7 +114,9 @@ fn sweep(parent: &Path) {
 
 /// Removes what nobody has locked; keeps it locked meanwhile, so that nobody takes it for new.
 fn remove_if_free(path: &Path, is_folder: bool) -> io::Result<()> {
-    let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
+    // A link of that name may lead to a device, and belongs to somebody else.
+    let flags = rustix::fs::OFlags::NONBLOCK | rustix::fs::OFlags::NOFOLLOW;
+    let flags = flags.bits() as i32;
     let file = OpenOptions::new().read(true).custom_flags(flags).open(path)?;
     file.try_lock()?;
     if is_folder {

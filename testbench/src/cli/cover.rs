@@ -3,7 +3,6 @@
 use super::*;
 use crate::cover::{self, Counts, Report, Waiver};
 use crate::regression::{Event, Plan, Waves};
-use std::fs;
 use wheatstone_golden::files::{self, Set};
 
 /// Empty bins and missing points that are named on the terminal.
@@ -80,7 +79,7 @@ fn waivers() -> Result<Vec<Waiver>, Failure> {
     let Some(file) = workspace().map(|root| root.join(cover::WAIVERS)) else {
         return Ok(Vec::new());
     };
-    let text = fs::read_to_string(&file)
+    let text = files::read_own(&file)
         .map_err(|error| Failure::Input(format!("{}: {error}", printable_path(&file))))?;
     Ok(Waiver::parse(&text).map_err(cover::CoverError::from)?)
 }
@@ -116,7 +115,7 @@ fn annotate(out: &Path, rtl: &Path, counts: &Counts, report: &Report) -> Result<
     let set = Set::new(out)?;
     for name in report.files.keys() {
         let source = rtl.join(name);
-        let text = fs::read_to_string(&source)
+        let text = files::read_own(&source)
             .map_err(|error| Failure::Input(format!("{}: {error}", printable_path(&source))))?;
         let file = set.path().join(format!("{name}.txt"));
         files::write(&file, cover::annotated(name, &text, counts, report).as_bytes())?;

@@ -19,7 +19,7 @@ pub(super) fn run(args: &GenerateArgs) -> Result<u8, Failure> {
     for generated in Generated::all() {
         let path = generated.path();
         let file = root.join(&path);
-        let present = std::fs::read_to_string(&file)
+        let present = files::read_own(&file)
             .map_err(|error| Failure::Input(format!("{}: {error}", printable_path(&file))))?;
         let renewed = generated.renewed(&present, &root)?;
         if renewed == present {

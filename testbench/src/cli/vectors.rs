@@ -53,8 +53,10 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
             let info = pack::write(&case, &origin, &hash, &args.out)?;
             let folder = printable_path(&info.folder);
             let cut = origin.scene.as_ref().filter(|scene| scene.beats < scene.beats_of);
-            let of =
-                cut.map_or(String::new(), |scene| format!(" of a scene of {}", scene.beats_of));
+            let of = cut.map_or(String::new(), |scene| {
+                let [first, all] = [scene.beats, scene.beats_of].map(|n| counted(n, "beat"));
+                format!(": the first {first} of the primary pipeline's {all}")
+            });
             say!("{folder}: {}, {}{of}", printable(&case.name), counted(info.beats, "beat"));
             written.push(info.folder);
         }

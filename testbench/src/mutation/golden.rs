@@ -7,6 +7,7 @@ use crate::tools::{search_path, CARGO_MUTANTS};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use wheatstone_golden::files;
 use wheatstone_golden::targets::Target;
 use wheatstone_process::Process;
 
@@ -90,8 +91,8 @@ pub fn test(
         return Err(failed(format!("cargo mutants ended with {status}")));
     }
     let text =
-        std::fs::read(&file).map_err(|error| failed(format!("{}: {error}", file.display())))?;
-    let report: Report = serde_json::from_slice(&text)
+        files::read_own(&file).map_err(|error| failed(format!("{}: {error}", file.display())))?;
+    let report: Report = serde_json::from_str(&text)
         .map_err(|error| failed(format!("{}: {error}", file.display())))?;
     Ok(report.outcomes.into_iter().filter_map(|outcome| tested(outcome, name, &reason)).collect())
 }

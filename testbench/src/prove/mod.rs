@@ -336,7 +336,7 @@ impl Prover {
         keep: impl FnOnce(&T) -> bool,
         find: impl FnOnce(&Folder) -> Result<T, FlowError>,
     ) -> Result<T, FlowError> {
-        let mut all = vec![programs.yosys.text.as_bytes(), programs.yices.text.as_bytes()];
+        let mut all = programs.versions();
         all.extend(inputs.iter().map(|text| text.as_bytes()));
         flow::cached(&self.cache, &format!("sam_{}", build.module), sources, &all, keep, find)
     }

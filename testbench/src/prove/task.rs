@@ -12,9 +12,9 @@ use wheatstone_process::Output;
 
 /// The programs of a proof.
 pub(super) struct Programs {
-    pub yosys: Found,
+    yosys: Found,
     smtbmc: Found,
-    pub yices: Found,
+    yices: Found,
     abc: Found,
     /// The folders in which they find each other.
     path: OsString,
@@ -30,6 +30,12 @@ impl Programs {
             abc: YOSYS_ABC.find_in(path)?,
             path: path.to_owned(),
         })
+    }
+
+    /// The versions of all of them: what they find may depend on each.
+    pub fn versions(&self) -> Vec<&[u8]> {
+        let all = [&self.yosys, &self.smtbmc, &self.yices, &self.abc];
+        all.map(|found| found.text.as_bytes()).to_vec()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Design, Figure, Figures, Folder, SynthError};
 use crate::tools::{self, YOSYS};
+use wheatstone_golden::files;
 
 /// A library of cells.
 struct Library {
@@ -32,8 +33,8 @@ const PRIMITIVE: &str = include_str!("../../../synth/primitive.lib");
 pub(super) fn measure(design: &Design<'_>) -> Result<Figures, SynthError> {
     let yosys = YOSYS.find()?;
     let path = tools::osu035("lib")?;
-    let osu035 = std::fs::read_to_string(&path)
-        .map_err(|source| SynthError::Read { path: path.clone(), source })?;
+    let osu035 =
+        files::read_own(&path).map_err(|source| SynthError::Read { path: path.clone(), source })?;
     let texts = [&osu035, PRIMITIVE];
     let script = script(design);
     let inputs =

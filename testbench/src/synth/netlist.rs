@@ -2,6 +2,7 @@
 
 use super::{Design, SynthError};
 use crate::tools::{self, YOSYS};
+use wheatstone_golden::files;
 
 /// What a netlist is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +21,8 @@ pub(super) fn make(design: &Design<'_>, cells: Cells) -> Result<String, SynthErr
         Cells::Osu035 => Some(tools::osu035("lib")?),
     };
     let library = library.map_or(Ok(Vec::new()), |path| {
-        std::fs::read(&path).map_err(|source| SynthError::Read { path, source })
+        files::read(&path, files::OWN_LIMIT)
+            .map_err(|e| SynthError::Read { path, source: e.source })
     })?;
     let map = match cells {
         // Flip-flops begin at random values, as real ones do: an unknown one would spread through

@@ -104,9 +104,9 @@ pub fn read_record<T: DeserializeOwned>(
     remedy: &'static str,
 ) -> Result<T, RecordError> {
     let path = workspace.join(file);
-    let parsed = std::fs::read(&path)
+    let parsed = files::read_own(&path)
         .map_err(|error| error.to_string())
-        .and_then(|text| serde_json::from_slice(&text).map_err(|error| error.to_string()));
+        .and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
     parsed.map_err(|why| RecordError { path, why, remedy })
 }
 

@@ -14,12 +14,12 @@ const CREASE: f64 = 0.5;
 /// Colour of vertices without one where others have one.
 const WHITE: [u8; 3] = [255; 3];
 
-/// A triangle of a face.
+/// A triangle of a face. There are millions: indices have 32 bits.
 struct Piece {
     /// Index of the face.
-    face: usize,
+    face: u32,
     /// Indices of its corners among those of the file.
-    corners: [usize; 3],
+    corners: [u32; 3],
     /// Indices of its normals.
     normals: [u32; 3],
 }
@@ -46,7 +46,7 @@ pub fn meshes(
     let mut builder: Option<Builder> = None;
     for of_face in pieces.chunk_by(|a, b| a.face == b.face) {
         let face = of_face[0].face;
-        let element = &parsed.faces[face];
+        let element = &parsed.faces[face as usize];
         let look = &looks[(element.material as usize).min(looks.len() - 1)];
         let mut layout = layout(parsed, element, look);
         if layout.pattern.is_some_and(|pattern| !repeats_are_few(parsed, element, pattern)) {
@@ -70,15 +70,15 @@ pub fn meshes(
 /// smooth ones; where one is no direction, the face's own. Where a face crosses itself the file gets
 /// corners more.
 fn pieces(parsed: &mut Parsed) -> (Vec<Piece>, Vec<Vec3>) {
-    let cut: Vec<Vec<[usize; 3]>> =
-        (0..parsed.faces.len()).map(|face| cut_face(parsed, face)).collect();
-    let mut normals: Vec<Vec3> = parsed.normals.iter().map(|n| n.unwrap_or_default()).collect();
     let mut pieces = Vec::new();
+    (0..parsed.faces.len()).for_each(|face| cut_face(parsed, face, &mut pieces));
+    let mut normals: Vec<Vec3> = parsed.normals.iter().map(|n| n.unwrap_or_default()).collect();
     // Pieces without normals, and their vertices as a mesh.
     let mut bare = Vec::new();
     let mut smooth = Mesh::default();
-    for (face, triangles) in cut.into_iter().enumerate() {
+    for (first, of_face) in chunks(&mut pieces) {
         let mut own = None;
+        let face = of_face[0].face as usize;
         let mut normal = |index: u32| match parsed.normals.get(index as usize) {
             Some(None) => *own.get_or_insert_with(|| {
                 let corners = parsed.corners(&parsed.faces[face]).iter();
@@ -89,14 +89,13 @@ fn pieces(parsed: &mut Parsed) -> (Vec<Piece>, Vec<Vec3>) {
             }),
             _ => index,
         };
-        for triangle in triangles {
-            let corners = triangle.map(|k| parsed.corners[k]);
+        for (n, piece) in of_face.iter_mut().enumerate() {
+            let corners = piece.corners.map(|k| parsed.corners[k as usize]);
             if corners[0].attributes[1] == NONE {
-                bare.push(pieces.len());
+                bare.push(first + n);
                 smooth.triangles.push(corners.map(|c| c.vertex));
             }
-            let normals = corners.map(|c| normal(c.attributes[1]));
-            pieces.push(Piece { face, corners: triangle, normals });
+            piece.normals = corners.map(|c| normal(c.attributes[1]));
         }
     }
     if !bare.is_empty() {
@@ -110,19 +109,36 @@ fn pieces(parsed: &mut Parsed) -> (Vec<Piece>, Vec<Vec3>) {
     (pieces, normals)
 }
 
-/// Corners of the triangles of a face. What is at points where the face crosses itself is added.
-fn cut_face(parsed: &mut Parsed, face: usize) -> Vec<[usize; 3]> {
+/// The pieces face by face, with the index of the first.
+fn chunks(pieces: &mut [Piece]) -> impl Iterator<Item = (usize, &mut [Piece])> {
+    let mut next = 0;
+    pieces.chunk_by_mut(|a, b| a.face == b.face).map(move |of_face| {
+        let first = next;
+        next += of_face.len();
+        (first, of_face)
+    })
+}
+
+/// Adds the triangles of a face, still without normals. What is at points where the face crosses itself is
+/// added to the corners.
+fn cut_face(parsed: &mut Parsed, face: usize, pieces: &mut Vec<Piece>) {
     let element = parsed.faces[face];
     let corners = parsed.corners(&element).iter();
     let places: Vec<Vec3> = corners.map(|c| parsed.positions[c.vertex as usize]).collect();
     let Cut { triangles, crossings } = cut(&places);
-    let mut corners: Vec<usize> = (element.first..element.first + element.count).collect();
+    let first = element.first as u32;
+    let mut corners: Vec<u32> = (first..first + element.count as u32).collect();
     for crossing in crossings {
         let ends = crossing.edge.map(|k| parsed.corners[element.first + k]);
-        corners.push(parsed.corners.len());
+        corners.push(parsed.corners.len() as u32);
         parsed.cross(&crossing, ends);
     }
-    triangles.iter().map(|t| t.map(|k| corners[k])).collect()
+    let piece = |triangle: &[usize; 3]| Piece {
+        face: face as u32,
+        corners: triangle.map(|k| corners[k]),
+        normals: [NONE; 3],
+    };
+    pieces.extend(triangles.iter().map(piece));
 }
 
 fn layout(parsed: &Parsed, face: &Element, look: &Look) -> Layout {
@@ -151,14 +167,14 @@ fn repeats_are_few(parsed: &Parsed, face: &Element, pattern: Pattern) -> bool {
 struct Builder {
     layout: Layout,
     /// Index of its first face.
-    first: usize,
+    first: u32,
     mesh: Mesh,
     /// Its vertices by their vertex, texture point and normal.
     known: HashMap<[u32; 3], u32>,
 }
 
 impl Builder {
-    fn new(layout: Layout, first: usize) -> Builder {
+    fn new(layout: Layout, first: u32) -> Builder {
         let mut mesh = Mesh { material: layout.material, ..Mesh::default() };
         if layout.coloured {
             mesh.colours = Colours::Vertex(Vec::new());
@@ -168,7 +184,7 @@ impl Builder {
 
     fn add(&mut self, parsed: &Parsed, normals: &[Vec3], piece: &Piece) {
         let triangle = [0, 1, 2].map(|k| {
-            let corner = parsed.corners[piece.corners[k]];
+            let corner = parsed.corners[piece.corners[k] as usize];
             let texture = self.layout.pattern.map_or(NONE, |_| corner.attributes[0]);
             let next = self.mesh.positions.len() as u32;
             let key = [corner.vertex, texture, piece.normals[k]];
@@ -179,7 +195,7 @@ impl Builder {
             vertex
         });
         self.mesh.triangles.push(triangle);
-        self.mesh.triangle_ids.push((piece.face - self.first) as u32);
+        self.mesh.triangle_ids.push(piece.face - self.first);
     }
 
     fn vertex(&mut self, parsed: &Parsed, vertex: usize, texture: u32, normal: Vec3) {

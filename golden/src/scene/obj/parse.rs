@@ -16,6 +16,8 @@ const SILENT: &str =
 /// Statements that draw what is not drawn here, or bring it from elsewhere.
 const NOT_DRAWN: &str = "p curv curv2 surf stech call csh usemap maplib bzp bsp cdc cdp res";
 
+/// Most corners of faces and points of lines in a file, so that what is made of them has room in 2 GB.
+const CORNER_LIMIT: usize = 1 << 23;
 /// No material, texture point or normal.
 pub const NONE: u32 = u32::MAX;
 /// The index of what no file has.
@@ -297,6 +299,11 @@ impl Reader<'_> {
             }
             if vertex == NONE {
                 return Err(statement.wrong("the index of a vertex", word));
+            }
+            if self.parsed.corners.len() == CORNER_LIMIT {
+                let expected =
+                    format!("at most {CORNER_LIMIT} corners of faces and points of lines");
+                return Err(statement.wrong(expected, "more; cut the file in two"));
             }
             self.parsed.corners.push(Corner { vertex, attributes });
         }

@@ -52,10 +52,11 @@ impl Pictures {
         let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
         let is_tga = extension.as_deref() == Some("tga");
         let Picture { texels, damage } = decode(&bytes, is_tga)?;
-        self.texels += texels.len() / 4;
-        if self.texels > TEXELS_LIMIT {
+        let sum = self.texels + texels.len() / 4;
+        if sum > TEXELS_LIMIT {
             return Err(format!("more than {TEXELS_LIMIT} texels in all textures"));
         }
+        self.texels = sum;
         self.textures.push(Texture {
             width: texels.width(),
             height: texels.height(),
