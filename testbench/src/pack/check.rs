@@ -406,9 +406,8 @@ fn check_one(folder: &Path, copy: Option<&Path>) -> Result<Checked, PackError> {
     for (port, stream) in manifest.ports.iter().zip(&interface.streams) {
         checker.port(port, stream)?;
     }
-    let mut outputs = manifest.ports.iter().filter(|port| port.direction == "output");
-    if outputs.all(|port| port.beats == 0) {
-        let expected = "beats of an output: a pack without any compares nothing";
+    if manifest.ports.iter().all(|port| port.beats == 0) {
+        let expected = "beats: a pack without any compares nothing";
         return Err(checker.fault("ports", "no beats", expected));
     }
     checker.same("hash", manifest.hash.clone(), manifest.digest())?;
