@@ -98,11 +98,23 @@ extern "C" FILE* wheatstone_nowhere() {
 
 namespace {
 
+#if VM_TRACE
+using Trace = VerilatedFstC;
+#else
+// A model that is built to be run once writes no waveforms.
+struct Trace {
+    void dump(uint64_t) {}
+    void flush() {}
+    void close() {}
+    bool isOpen() const { return false; }
+};
+#endif
+
 struct Handle {
     VerilatedContext context;
     std::unique_ptr<V> top;
     V___024root* root = nullptr;
-    std::unique_ptr<VerilatedFstC> trace;
+    std::unique_ptr<Trace> trace;
     void* signals[SIGNALS] = {};
     uint32_t events = 0;
     bool stopped = false;
@@ -286,6 +298,7 @@ API void wheatstone_coverage_write(Handle* h, const char* path) {
 API const char* wheatstone_stopped(const Handle* h) { return h->stopped ? h->text : nullptr; }
 
 API bool wheatstone_trace_open(Handle* h, const char* path) {
+#if VM_TRACE
     h->guarded([=] {
         h->trace.reset(new VerilatedFstC);
         h->top->trace(h->trace.get(), 99);
@@ -293,6 +306,7 @@ API bool wheatstone_trace_open(Handle* h, const char* path) {
         h->trace->set_time_resolution("1ns");
         h->trace->open(path);
     });
+#endif
     return h->trace && h->trace->isOpen();
 }
 

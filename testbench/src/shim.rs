@@ -70,7 +70,7 @@ pub(crate) fn head(files: &[String], key: &str) -> String {
     }
     let _ = writeln!(
         text,
-        "#include \"verilated_cov.h\"\n#include \"verilated_fst_c.h\"\n#include \"verilated_sym_props.h\"\n#define KEY \"{key}\""
+        "#include \"verilated_cov.h\"\n#if VM_TRACE\n#include \"verilated_fst_c.h\"\n#endif\n#include \"verilated_sym_props.h\"\n#define KEY \"{key}\""
     );
     text
 }
