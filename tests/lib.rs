@@ -23,16 +23,21 @@ pub fn rtl() -> PathBuf {
     workspace().join("rtl")
 }
 
+/// The tools that build models.
+fn toolchain() -> Toolchain {
+    static TOOLS: OnceLock<Toolchain> = OnceLock::new();
+    let find = || Toolchain::find().unwrap_or_else(|missing| panic!("{missing}"));
+    TOOLS.get_or_init(find).clone()
+}
+
 /// A builder whose models are kept from one test run to the next.
 pub fn builder() -> Builder {
-    let tools = Toolchain::find().unwrap_or_else(|missing| panic!("{missing}"));
-    Builder::new(tools, workspace().join(Builder::CACHE))
+    Builder::new(toolchain(), workspace().join(Builder::CACHE))
 }
 
 /// A builder of models that are run once: quickly built, slow.
 pub fn quick_builder() -> Builder {
-    let tools = Toolchain::find().unwrap_or_else(|missing| panic!("{missing}"));
-    Builder::new(tools, workspace().join("target/wheatstone/quick")).unoptimised()
+    Builder::new(toolchain(), workspace().join("target/wheatstone/quick")).unoptimised()
 }
 
 /// A folder that goes when it is dropped.

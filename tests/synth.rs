@@ -22,9 +22,15 @@ fn record() -> Record {
     Record::read(workspace()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What is worse than recorded, of all targets in a configuration.
-fn assert_as_recorded(config: &str) {
-    let entries = Target::ALL.map(|target| gates(&rtl(), target, config));
+/// Units, and the smaller systems: the larger ones take minutes, and `wheatstone synth --check` in scripts/long.
+fn is_small(target: &Target) -> bool {
+    !matches!(target, Target::Hybrid | Target::Mono | Target::Stereo)
+}
+
+/// No target of these is worse than recorded in a configuration.
+fn assert_as_recorded(config: &str, targets: impl Fn(&Target) -> bool) {
+    let targets = Target::ALL.into_iter().filter(targets);
+    let entries: Vec<Entry> = targets.map(|target| gates(&rtl(), target, config)).collect();
     let faults = record().faults(&entries);
     let renew = "if this is meant: wheatstone synth --record, then wheatstone generate";
     assert!(faults.is_empty(), "{}\n{renew}", faults.join("\n"));
@@ -32,21 +38,25 @@ fn assert_as_recorded(config: &str) {
 
 #[test]
 fn gates_of_the_default_configuration_are_as_recorded() {
-    assert_as_recorded("default");
+    assert_as_recorded("default", is_small);
 }
 
 #[test]
 fn gates_of_the_full_configuration_are_as_recorded() {
-    assert_as_recorded("full");
+    assert_as_recorded("full", is_small);
 }
 
 #[test]
 fn gates_of_the_paper_configuration_are_as_recorded_and_as_few_as_published() {
-    assert_as_recorded("paper");
+    assert_as_recorded("paper", |target| is_small(target) || *target == Target::Hybrid);
     for target in Target::ALL {
+        let Some(allowed) = published(target) else { continue };
         let gates = gates(&rtl(), target, "paper").figures[&Figure::Osu035];
-        let allowed = published(target).map_or(f64::INFINITY, f64::from);
-        assert!(gates <= allowed, "{}: {gates} gates, published {allowed}", target.name());
+        assert!(
+            gates <= f64::from(allowed),
+            "{}: {gates} gates, published {allowed}",
+            target.name()
+        );
     }
 }
 

@@ -13,14 +13,29 @@ pub(crate) const PREFIX: &str = "V";
 
 /// Included before everything else that is compiled, the runtime too: what a module prints, also by `$fdisplay`
 /// into the descriptors that are always open, does not appear among the results.
-pub(crate) const PRINT_HEADER: &str = "#pragma once
-#include <cstdio>
+pub(crate) const PRINT_HEADER: &str = "#include <cstdio>
 #undef stdout
 #undef stderr
 extern \"C\" int wheatstone_print(const char* format, ...);
 extern \"C\" FILE* wheatstone_nowhere();
 #define stdout wheatstone_nowhere()
 #define stderr wheatstone_nowhere()
+";
+
+/// What every model includes after it. Reading this is most of the work of a compiler that does not optimise, so it
+/// is compiled once.
+pub(crate) const MODEL_HEADERS: &str = "#include <atomic>
+#include <cstdarg>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include \"verilated_cov.h\"
+#include \"verilated_sym_props.h\"
+#if VM_TRACE
+#include \"verilated_fst_c.h\"
+#endif
 ";
 
 /// Functions that end a process, which the shim replaces.
@@ -63,15 +78,7 @@ pub(crate) fn head(files: &[String], key: &str) -> String {
         lines(&fast),
         lines(&slow)
     );
-    let standard =
-        ["atomic", "cstdarg", "cstdio", "cstdlib", "cstring", "memory", "stdexcept", "string"];
-    for header in standard {
-        let _ = writeln!(text, "#include <{header}>");
-    }
-    let _ = writeln!(
-        text,
-        "#include \"verilated_cov.h\"\n#if VM_TRACE\n#include \"verilated_fst_c.h\"\n#endif\n#include \"verilated_sym_props.h\"\n#define KEY \"{key}\""
-    );
+    let _ = writeln!(text, "#define KEY \"{key}\"");
     text
 }
 

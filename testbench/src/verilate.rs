@@ -6,6 +6,8 @@
 //! temporary folder of the process and then renamed, under a file lock: neither a second process nor
 //! a killed one leaves half a model, nor do the compilers that outlive a killed one.
 
+mod runtime;
+
 use crate::cover::Collector;
 use crate::kept::{self, entry, short, Kept};
 use crate::layout::{Layout, Probe};
@@ -49,6 +51,7 @@ const VERILATOR_FLAGS: &[&str] = &[
 const GXX_FLAGS: &[&str] = &[
     "-std=gnu++17",
     "-fPIC",
+    "-pthread",
     "-fvisibility=hidden",
     "-fno-gnu-unique",
     #[cfg(target_arch = "x86_64")]
@@ -74,9 +77,6 @@ const COVERING: &str = "-O1";
 
 /// The file with a model.
 const OBJECT: &str = "model.so";
-
-/// Sources of Verilator's runtime that every model is linked with.
-const RUNTIME: [&str; 4] = ["verilated", "verilated_threads", "verilated_fst_c", "verilated_cov"];
 
 /// What is to be built.
 #[derive(Clone, Copy, Debug)]
@@ -278,56 +278,17 @@ impl Builder {
         })
     }
 
-    /// The objects of Verilator's runtime, compiled once per compiler and flags.
-    fn runtime(&self) -> Result<Vec<PathBuf>, BuildError> {
-        let mut hash = self.tool_hash();
-        for name in RUNTIME {
-            let path = self.tools.include.join(format!("{name}.cpp"));
-            hash.update(&fs::read(&path).map_err(|source| BuildError::Source { path, source })?);
-        }
-        let key = short(&hash);
-        let folder = self.cache.join(format!("runtime-{key}"));
-        let objects = RUNTIME.map(|name| folder.join(format!("{name}.o"))).to_vec();
-        let is_sound = || matches!(kept::folder(&folder, &key), Kept::Sound(_));
-        if is_sound() {
-            return Ok(objects);
-        }
-        let _lock = self.lock(&format!("runtime-{key}.lock"))?;
-        if is_sound() {
-            return Ok(objects);
-        }
-        if folder.exists() {
-            (self.progress)(Progress::Damaged("Verilator's runtime"));
-        }
-        self.tools.check_zlib()?;
-        (self.progress)(Progress::Runtime);
-        let temporary = self.scratch()?;
-        write(&temporary.path().join("print.h"), shim::PRINT_HEADER.as_bytes())?;
-        for name in RUNTIME {
-            let mut command = self.compiler(temporary.path());
-            command.arg("-c").arg(self.tools.include.join(format!("{name}.cpp")));
-            command.arg("-o").arg(format!("{name}.o"));
-            let log = self.cache.join(format!("runtime-{key}.log"));
-            let made = temporary.path().join(format!("{name}.o"));
-            run(command, "g++", "verilator's runtime", &log, &made, kept::is_whole_object)?;
-        }
-        let header = temporary.path().join("print.h");
-        fs::remove_file(&header).map_err(|source| BuildError::Cache { path: header, source })?;
-        persist(temporary, &key, &folder)?;
-        Ok(objects)
-    }
-
     /// A temporary folder in the cache.
     fn scratch(&self) -> Result<Scratch, BuildError> {
         let at = |source| BuildError::Cache { path: self.cache.clone(), source };
         Scratch::new(&self.cache).map_err(at)
     }
 
-    /// g++ with the flags of every compilation, working in `folder`, where `print.h` is.
+    /// g++ with the flags of every compilation, working in `folder`.
     fn compiler(&self, folder: &Path) -> Command {
         let mut command = self.tools.command(&self.tools.gxx);
         command.current_dir(folder).arg(self.optimisation).args(GXX_FLAGS);
-        command.args(self.macros()).args(["-include", "print.h"]);
+        command.args(self.macros());
         command.arg("-I").arg(&self.tools.include).arg("-I").arg(self.tools.include.join("vltstd"));
         command
     }
@@ -362,7 +323,9 @@ impl Builder {
         for flag in VERILATOR_FLAGS.iter().chain(GXX_FLAGS).chain(&own) {
             entry(&mut hash, b"flag", flag.as_bytes());
         }
-        entry(&mut hash, b"print", shim::PRINT_HEADER.as_bytes());
+        for header in [shim::PRINT_HEADER, shim::MODEL_HEADERS] {
+            entry(&mut hash, b"header", header.as_bytes());
+        }
         hash
     }
 }
@@ -401,7 +364,6 @@ impl Job<'_> {
             write(&temporary.join("rtl").join(name), content)?;
         }
         write(&temporary.join("probes.vlt"), self.control.as_bytes())?;
-        write(&temporary.join("print.h"), shim::PRINT_HEADER.as_bytes())?;
 
         let tools = &self.builder.tools;
         let mut command = tools.command(&tools.verilator);
@@ -420,13 +382,14 @@ impl Job<'_> {
         let unit = shim::head(&files, key) + &self.shim;
         write(&temporary.join("cpp/model.cpp"), unit.as_bytes())?;
         let mut command = self.builder.compiler(temporary);
+        command.arg("-include").arg(runtime.header());
         command.args(["-shared", "-Wl,-Bsymbolic", "-I", "cpp", "cpp/model.cpp"]);
         command.args(shim::REPLACED.map(|name| format!("-Wl,--wrap={name}")));
-        command.args(runtime.iter().map(|object| absolute(object)));
-        command.args(["-o", OBJECT, "-pthread", "-lz"]);
+        command.args(runtime.objects());
+        command.args(["-o", OBJECT, "-lz"]);
         let object = temporary.join(OBJECT);
         let content = run(command, "g++", module, &log, &object, kept::is_whole_object)?;
-        for path in ["cpp", "rtl", "probes.vlt", "print.h"].map(|part| temporary.join(part)) {
+        for path in ["cpp", "rtl", "probes.vlt"].map(|part| temporary.join(part)) {
             let remove = if path.is_dir() { fs::remove_dir_all } else { fs::remove_file };
             remove(&path).map_err(|source| BuildError::Cache { path, source })?;
         }
