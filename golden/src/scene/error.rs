@@ -1,6 +1,7 @@
 //! What can be wrong with a scene, and where.
 
 use super::locate::Locator;
+use super::wires::LINE_LIMIT;
 use crate::files::{self, ReadError};
 use crate::text::{self, printable, printable_path, TextError};
 use std::fmt;
@@ -12,6 +13,8 @@ pub const COORDINATE_LIMIT: f64 = 1e9;
 pub const SIZE_LIMIT: u32 = 2048;
 /// Most triangles and faces of a scene: id pictures hold one more than an id in 24 bits.
 pub const ID_LIMIT: usize = (1 << 24) - 1;
+/// Most corners of polygons and points of lines in a file, so that what is made of them has room in 2 GB.
+pub const CORNER_LIMIT: usize = 1 << 23;
 /// Largest file of a scene, in bytes: some ten times what the largest mesh takes that is drawn in
 /// reasonable time.
 pub const FILE_LIMIT: u64 = 256 << 20;
@@ -139,6 +142,9 @@ pub enum SceneError {
     /// A value of the rig makes no sense.
     #[error(transparent)]
     Rig(#[from] RigError),
+    /// A wire frame has too many lines.
+    #[error("cannot draw the wire frame: the scene has more than {LINE_LIMIT} edges; try a mesh with fewer faces")]
+    Edges,
     /// A scene made in code contradicts itself.
     #[error("mesh {mesh}: {field}: {problem}")]
     Mesh {

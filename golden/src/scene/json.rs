@@ -18,7 +18,7 @@
 //!
 //! Nothing is lit. Triangles without area are legal and draw nothing.
 
-use super::error::{read_text, InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT, SIZE_LIMIT};
+use super::error::{read_text, InputError, SceneError, COORDINATE_LIMIT, CORNER_LIMIT, SIZE_LIMIT};
 use super::locate::Locator;
 use super::{Colours, Material, Mesh, Rig, Scene};
 use serde::de::{DeserializeOwned, Error, Unexpected, Visitor};
@@ -226,8 +226,9 @@ fn check(content: &SceneFile, rig: &Rig, file: &Path, text: &str) -> Result<(), 
         return wrong("triangles", Some(at), expected, format!("{:?}", content.triangles[at]));
     }
     let triangles = content.triangles.len();
-    if triangles > ID_LIMIT {
-        return wrong("triangles", None, format!("at most {ID_LIMIT}"), triangles.to_string());
+    let most = CORNER_LIMIT / 3;
+    if triangles > most {
+        return wrong("triangles", None, format!("at most {most}"), triangles.to_string());
     }
     match &content.triangle_colors {
         Some(colours) if colours.len() != triangles => {

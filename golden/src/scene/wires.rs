@@ -15,6 +15,9 @@ use crate::config::Config;
 use crate::formats::{Eye, Formats};
 use std::collections::HashMap;
 
+/// Most lines of a scene: one takes as much memory as a thousand characters.
+pub const LINE_LIMIT: usize = 1 << 20;
+
 /// Greatest thickness of a line, in pixels.
 pub const THICKEST: f64 = 2.0;
 
@@ -110,12 +113,13 @@ fn corners(ends: [Vec3; 2], lens: &Lens) -> [Vec3; 4] {
 /// colours that the polygons have at their ends, lit, for both eyes alike, without texture.
 ///
 /// Edges between triangles of one polygon are left out, and edges of several polygons are drawn
-/// once, in the colour of the first. Lines stay as they are, and come last.
+/// once, in the colour of the first. Lines stay as they are, and come last. More edges than [`LINE_LIMIT`] are an
+/// error.
 pub fn wire_frame(scene: &Scene) -> Result<Scene, SceneError> {
     scene.check()?;
     let mut edges = Edges::default();
     for mesh in scene.meshes.iter().filter(|mesh| !mesh.lines) {
-        edges.add_mesh(scene, mesh);
+        edges.add_mesh(scene, mesh)?;
     }
     // The snapping of this camera is not used.
     let formats = Formats::new(&Config::DEFAULT);
@@ -152,7 +156,7 @@ struct Edge {
 }
 
 impl Edges {
-    fn add_mesh(&mut self, scene: &Scene, mesh: &Mesh) {
+    fn add_mesh(&mut self, scene: &Scene, mesh: &Mesh) -> Result<(), SceneError> {
         let mut shading = Shading::new(scene, mesh, Eye::BOTH.map(|eye| scene.rig.eye(eye)));
         let common = |eyes: [[f64; 4]; 2]| -> [u8; 3] {
             std::array::from_fn(|n| ((eyes[0][n] + eyes[1][n]) / 2.0).round() as u8)
@@ -160,17 +164,24 @@ impl Edges {
         for (n, triangle) in mesh.triangles.iter().enumerate() {
             let colours = shading.triangle(n).map(common);
             let id = mesh.triangle_ids.get(n).copied().unwrap_or(n as u32);
-            self.add_polygon(mesh, triangle, &colours, self.polygons + id);
+            self.add_polygon(mesh, triangle, &colours, self.polygons + id)?;
         }
         self.polygons += mesh.triangle_id_count() as u32;
         for (n, face) in mesh.faces.iter().enumerate() {
             let colours = vec![common(shading.face(n)); face.len()];
-            self.add_polygon(mesh, face, &colours, self.polygons + n as u32);
+            self.add_polygon(mesh, face, &colours, self.polygons + n as u32)?;
         }
         self.polygons += mesh.faces.len() as u32;
+        Ok(())
     }
 
-    fn add_polygon(&mut self, mesh: &Mesh, corners: &[u32], colours: &[[u8; 3]], polygon: u32) {
+    fn add_polygon(
+        &mut self,
+        mesh: &Mesh,
+        corners: &[u32],
+        colours: &[[u8; 3]],
+        polygon: u32,
+    ) -> Result<(), SceneError> {
         for (k, &from) in corners.iter().enumerate() {
             let next = (k + 1) % corners.len();
             let ends = [from, corners[next]].map(|n| mesh.positions[n as usize]);
@@ -182,9 +193,11 @@ impl Edges {
             match self.edges.get_mut(at) {
                 Some(edge) if edge.polygon == polygon => edge.inner = true,
                 Some(edge) => edge.shared = true,
+                None if at == LINE_LIMIT => return Err(SceneError::Edges),
                 None => self.edges.push(Edge { line, polygon, inner: false, shared: false }),
             }
         }
+        Ok(())
     }
 
     fn lines(&self) -> Vec<Line> {

@@ -1,9 +1,10 @@
 //! Reads the statements of an OBJ file.
 
 use super::super::cut::Crossing;
-use super::super::error::{InputError, SceneError, COORDINATE_LIMIT, ID_LIMIT};
+use super::super::error::{InputError, SceneError, COORDINATE_LIMIT, CORNER_LIMIT};
 use super::super::vector::{unit, Vec3};
 use super::super::warning::Warnings;
+use super::super::wires::LINE_LIMIT;
 use super::statement::{each, is_one_of, Statement};
 use std::collections::HashMap;
 use std::path::Path;
@@ -16,8 +17,6 @@ const SILENT: &str =
 /// Statements that draw what is not drawn here, or bring it from elsewhere.
 const NOT_DRAWN: &str = "p curv curv2 surf stech call csh usemap maplib bzp bsp cdc cdp res";
 
-/// Most corners of faces and points of lines in a file, so that what is made of them has room in 2 GB.
-const CORNER_LIMIT: usize = 1 << 23;
 /// No material, texture point or normal.
 pub const NONE: u32 = u32::MAX;
 /// The index of what no file has.
@@ -129,7 +128,7 @@ impl Parsed {
 /// Reads an OBJ file's text.
 pub fn parse(file: &Path, text: &str, warnings: &mut Warnings) -> Result<Parsed, SceneError> {
     let (parsed, known) = Default::default();
-    let mut reader = Reader { file, warnings, parsed, material: NONE, known };
+    let mut reader = Reader { file, warnings, parsed, material: NONE, known, segments: 0 };
     each(file, text, |statement| reader.statement(statement))?;
     reader.finish()
 }
@@ -177,6 +176,8 @@ struct Reader<'a> {
     material: u32,
     /// Indices of names of materials and libraries.
     known: [HashMap<String, u32>; 2],
+    /// Straight pieces of lines so far.
+    segments: usize,
 }
 
 impl Reader<'_> {
@@ -266,9 +267,6 @@ impl Reader<'_> {
             statement.warn(self.warnings, "fewer than three corners; not drawn");
             return Ok(());
         }
-        if self.parsed.faces.len() == ID_LIMIT {
-            return Err(statement.wrong(format!("at most {ID_LIMIT} faces"), "more"));
-        }
         self.parsed.faces.push(element);
         Ok(())
     }
@@ -279,6 +277,11 @@ impl Reader<'_> {
             self.parsed.corners.truncate(element.first);
             statement.warn(self.warnings, "fewer than two points; not drawn");
             return Ok(());
+        }
+        self.segments += element.count - 1;
+        if self.segments > LINE_LIMIT {
+            let expected = format!("at most {LINE_LIMIT} straight pieces of lines");
+            return Err(statement.wrong(expected, "more; cut the file in two"));
         }
         self.parsed.lines.push(element);
         Ok(())
