@@ -6,10 +6,14 @@
 
 mod ending;
 mod kept;
+mod memory;
+mod patience;
 mod usage;
 
 pub use ending::{end_now, on_signal, signal_status};
-pub use usage::{end_orphans, of_thread};
+pub use memory::limit_memory;
+pub use patience::Patience;
+pub use usage::{adopt_orphans, end_orphans, of_thread, Activity};
 
 use kept::Kept;
 use rustix::process::{kill_process_group, waitid, Pid, Signal, WaitId, WaitIdOptions};
@@ -33,7 +37,7 @@ pub const KEPT: usize = 2 << 20;
 /// Bytes that a program may print beyond what is kept.
 const FLOOD: u64 = 256 << 20;
 /// Time after which the first message tells what is waited for; each further one after four times as long.
-const PATIENCE: Duration = Duration::from_secs(10);
+pub const PATIENCE: Duration = Duration::from_secs(10);
 /// How often the processor time of a limited program is looked up.
 const LOOK: Duration = Duration::from_millis(200);
 /// Time that the streams of a program may stay open after its group was killed.
@@ -251,6 +255,7 @@ impl<'a> Process<'a> {
             Ok(_) => self.ended(group.end()).map(Some),
             Err(_) => {
                 group.leave(&mut live());
+                left().push(group.id);
                 Ok(None)
             }
         }
@@ -358,6 +363,13 @@ fn live() -> MutexGuard<'static, Vec<Pid>> {
     LIVE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// The groups of those that stay when this process ends.
+static LEFT: Mutex<Vec<Pid>> = Mutex::new(Vec::new());
+
+fn left() -> MutexGuard<'static, Vec<Pid>> {
+    LEFT.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Kills all children, with all that they have started, for good: whoever starts another one or waits for one
 /// then waits until this process ends, which must follow.
 fn end_all() {
@@ -383,6 +395,7 @@ impl Group {
         let mut live = live();
         let child = command.process_group(0).spawn()?;
         let id = Pid::from_child(&child);
+        memory::free(id);
         live.push(id);
         Ok(Group { child, id, is_over: false })
     }

@@ -1,7 +1,9 @@
 //! What the system knows of processes: whose they are, and the processor time that they have used.
 
+use crate::left;
 use rustix::process::{
-    getpgrp, getpid, kill_process, kill_process_group, wait, Pid, Signal, WaitOptions,
+    getpgrp, getpid, kill_process, kill_process_group, set_child_subreaper, wait, Pid, Signal,
+    WaitOptions,
 };
 use std::fs;
 use std::io;
@@ -11,8 +13,18 @@ use std::time::{Duration, Instant};
 /// Time in which killed processes must have ended.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// What a thread is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Activity {
+    /// Processor time that it has used.
+    pub processor: Duration,
+    /// Whether it waits for something other than a processor.
+    pub sleeps: bool,
+}
+
 /// A line of `/proc/*/stat`.
 struct Stat {
+    sleeps: bool,
     parent: i32,
     group: i32,
     /// Ticks of user and system time, its own and those of the children that it has waited for.
@@ -29,7 +41,8 @@ impl Stat {
             *ticks = field.parse().ok()?;
         }
         let id = |n: usize| fields.get(n)?.parse().ok();
-        Some(Stat { parent: id(1)?, group: id(2)?, ticks })
+        let sleeps = ["S", "D"].contains(fields.first()?);
+        Some(Stat { sleeps, parent: id(1)?, group: id(2)?, ticks })
     }
 }
 
@@ -53,21 +66,29 @@ pub(crate) fn of_group(group: Pid) -> Duration {
     time(members.flat_map(|(_, stat)| stat.ticks).sum())
 }
 
-/// Processor time that a thread of this process has used.
-pub fn of_thread(id: i32) -> io::Result<Duration> {
+/// What a thread of this process is at.
+pub fn of_thread(id: i32) -> io::Result<Activity> {
     let line = fs::read_to_string(format!("/proc/self/task/{id}/stat"))?;
     let stat = Stat::parse(&line).ok_or(io::ErrorKind::InvalidData)?;
-    Ok(time(stat.ticks[0] + stat.ticks[1]))
+    Ok(Activity { processor: time(stat.ticks[0] + stat.ticks[1]), sleeps: stat.sleeps })
+}
+
+/// What a child leaves behind when it ends comes to this process from now on, whatever group it is in.
+pub fn adopt_orphans() {
+    // An old kernel cannot: then nothing comes.
+    let _ = set_child_subreaper(Some(getpid()));
 }
 
 /// Kills all children of this process and what they have started, those too that a child which died has left to it.
-/// They are those of the group of this process and of groups of their own.
+/// They are those of the group of this process and of groups of their own. Programs that were launched to stay do.
 pub fn end_orphans() {
     let (own, group) = (getpid().as_raw_nonzero().get(), getpgrp().as_raw_nonzero().get());
     let start = Instant::now();
     // Those whose parent was killed come to this process a moment later.
     while start.elapsed() < PATIENCE {
-        let children: Vec<(i32, Stat)> = all().filter(|(_, stat)| stat.parent == own).collect();
+        let stays = |group| Pid::from_raw(group).is_some_and(|group| left().contains(&group));
+        let is_to_end = |stat: &Stat| stat.parent == own && !stays(stat.group);
+        let children: Vec<(i32, Stat)> = all().filter(|(_, stat)| is_to_end(stat)).collect();
         for (id, stat) in &children {
             let _ = match Pid::from_raw(stat.group).filter(|_| stat.group != group) {
                 Some(group) => kill_process_group(group, Signal::KILL),
@@ -91,6 +112,9 @@ mod tests {
         let line = "12 (a) b (c) R 1 77 77 0 -1 4194304 100 0 0 0 3 4 50 600 20 0 1 0 1 1 1";
         let stat = Stat::parse(line).unwrap();
         assert_eq!((stat.parent, stat.group, stat.ticks), (1, 77, [3, 4, 50, 600]));
+        assert!(!stat.sleeps, "it runs");
+        let sleeps = |state: &str| Stat::parse(&line.replace(" R ", state)).unwrap().sleeps;
+        assert_eq!([" S ", " D ", " T ", " Z "].map(sleeps), [true, true, false, false]);
         assert!(Stat::parse("12 (a) R").is_none());
     }
 }

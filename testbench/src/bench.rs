@@ -1,9 +1,10 @@
 //! A model in its test bench: reset, runs, waveforms.
 
+use crate::build_error::{LoadError, TraceError};
 use crate::cursors::{Words, WORDS};
 use crate::drive::{Run, JUNK};
 use crate::job::{Job, JobError, Responder, TraceWindow};
-use crate::model::{Library, LoadError, Model, TraceError};
+use crate::model::{Library, Model};
 use crate::outcome::Outcome;
 use crate::stalls::Stalls;
 use crate::watch::Watched;

@@ -1,5 +1,6 @@
 //! Which of the tools are there: what `wheatstone doctor` tells.
 
+use crate::ask::{header, include};
 use crate::tools::*;
 use std::ffi::OsStr;
 use std::fmt;
@@ -89,11 +90,19 @@ impl fmt::Display for Doctor {
                 Ok(Found { program, .. }) => program.display().to_string(),
                 Err(ToolError::Missing(_)) => "missing".to_owned(),
                 Err(ToolError::TooOld { found, .. }) => format!("{}: too old", tool.spell(*found)),
+                // Who cannot tell whether a header is there.
+                Err(ToolError::Call { tool: other, .. }) if other != tool => {
+                    format!("{} does not run", other.program)
+                }
                 Err(ToolError::Unusable { .. } | ToolError::Call { .. }) => {
                     "does not run".to_owned()
                 }
             };
-            let install = if result.is_ok() { String::new() } else { tool.install_command() };
+            let install = match result {
+                Ok(_) => String::new(),
+                Err(ToolError::Call { tool, .. }) => tool.install_command(),
+                Err(_) => tool.install_command(),
+            };
             let purpose = if tool.optional { "optional: " } else { "" };
             table.add_row([tool.program, &format!("{purpose}{}", tool.purpose), &found, &install]);
         }

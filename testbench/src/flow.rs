@@ -4,7 +4,6 @@ use crate::kept::{self, entry, short, Kept};
 use crate::sources::Sources;
 use crate::tools::{self, Found, Tool, ToolError};
 use serde::{de::DeserializeOwned, Serialize};
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -92,6 +91,10 @@ pub(crate) fn cached<T: Serialize + DeserializeOwned>(
     inputs.iter().for_each(|input| entry(&mut hash, b"input", input));
     let file = cache.join(format!("{module}-{}.result", short(&hash)));
     let key = hash.finalize().to_hex();
+    if let Some(kind) = files::irregular(&file) {
+        let source = io::Error::other(format!("expected a regular file, found {kind}; delete it"));
+        return Err(FlowError::Read { path: file, source });
+    }
     let known = match kept::text(&file, &key) {
         Kept::Sound(text) => serde_json::from_str(&text).ok(),
         Kept::Absent => None,
@@ -140,10 +143,15 @@ impl Folder {
         Ok(files::write(&self.folder.path().join(name), content)?)
     }
 
-    /// The text of a file.
-    pub fn read(&self, name: &str) -> Result<String, FlowError> {
-        let path = self.folder.path().join(name);
-        fs::read_to_string(&path).map_err(|source| FlowError::Read { path, source })
+    /// The text of a file that a tool has written.
+    pub fn read(&self, tool: &'static Tool, name: &str) -> Result<String, FlowError> {
+        let content = files::read(&self.folder.path().join(name), kept::LIMIT);
+        let text = content.map_err(|error| match error.source.kind() {
+            io::ErrorKind::NotFound => self.lacks(tool, name, ""),
+            _ => self.failed(tool, &format!("{name} cannot be read: {}", error.source)),
+        })?;
+        String::from_utf8(text)
+            .map_err(|error| self.failed(tool, &format!("{name} cannot be read: {error}")))
     }
 
     /// A command of a tool that works in this folder and finds the programs that it calls.
@@ -157,13 +165,24 @@ impl Folder {
         command
     }
 
-    /// Runs a command; what it said, where it failed, becomes the error.
-    pub fn run(&self, tool: &'static Tool, command: &mut Command) -> Result<(), FlowError> {
+    /// Runs a command, of which the files `made` come; what it said, where it failed, becomes the error.
+    pub fn run(
+        &self,
+        tool: &'static Tool,
+        command: &mut Command,
+        made: &[&str],
+    ) -> Result<(), FlowError> {
         let output = Process::new(tool.program, command).on(&self.module).run()?;
-        match output.succeeded() {
-            true => Ok(()),
-            false => Err(self.failed(tool, &output.said())),
+        if !output.succeeded() {
+            return Err(self.failed(tool, &output.said()));
         }
+        let lacking = made.iter().find(|name| !self.folder.path().join(name).is_file());
+        lacking.map_or(Ok(()), |name| Err(self.lacks(tool, name, &output.said())))
+    }
+
+    /// The error of a tool that ended well without its file.
+    fn lacks(&self, tool: &'static Tool, name: &str, said: &str) -> FlowError {
+        self.failed(tool, &format!("ERROR: it ended well, but wrote no {name}\n{said}"))
     }
 
     /// What a command says and how it ends; it is stopped when it and all that it has started have used so much
@@ -189,6 +208,24 @@ impl Folder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_tool_that_writes_nothing_and_says_that_all_is_well_is_told() {
+        let cache = tempfile::tempdir().unwrap();
+        let folder = Folder::of(cache.path(), "sam_x", &Sources::new()).unwrap();
+        let lacks = "yosys failed on sam_x:\nERROR: it ended well, but wrote no stat";
+        let run = folder.run(&tools::YOSYS, &mut Command::new("true"), &["stat"]).unwrap_err();
+        assert!(run.to_string().starts_with(lacks), "{run}");
+        let read = folder.read(&tools::YOSYS, "stat").unwrap_err();
+        assert!(read.to_string().starts_with(lacks), "{read}");
+        fs::create_dir(folder.path().join("stat")).unwrap();
+        let read = folder.read(&tools::YOSYS, "stat").unwrap_err().to_string();
+        assert!(
+            read.ends_with("stat cannot be read: expected a regular file, found a folder"),
+            "{read}"
+        );
+    }
 
     #[test]
     fn a_kept_result_that_was_changed_is_measured_anew() {
@@ -210,5 +247,10 @@ mod tests {
         fs::write(&file, text.replace("\n120", "\n121")).unwrap();
         assert_eq!([measure(true), measure(true)], [120; 2]);
         assert_eq!(measured.get(), 3);
+        fs::remove_file(&file).unwrap();
+        fs::create_dir(&file).unwrap();
+        let error = cached(cache.path(), "sam_x", &sources, &[b"yosys"], |_| true, |_| Ok(0));
+        let error = error.unwrap_err().to_string();
+        assert!(error.ends_with("expected a regular file, found a folder; delete it"), "{error}");
     }
 }

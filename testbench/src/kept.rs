@@ -12,7 +12,7 @@ use wheatstone_golden::files::{self, Scratch, WriteError};
 /// The file of a folder that has the digest of the others.
 const DIGEST: &str = "blake3";
 /// Most bytes of a file that is kept.
-const LIMIT: u64 = 1 << 30;
+pub(crate) const LIMIT: u64 = 1 << 30;
 
 /// What was found under a key.
 pub(crate) enum Kept<T> {

@@ -8,8 +8,10 @@
 //! views of waveforms; [`synth`] measures area and timing, [`mutation`] what the regression would catch, [`baseline`] clocks beside two monocular passes; [`tools`] finds the programs that all this needs; [`generated`] has the files
 //! that are made from the definitions of the golden model.
 
+mod ask;
 pub mod baseline;
 mod bench;
+mod build_error;
 pub mod cases;
 pub mod cli;
 pub mod cover;
@@ -43,13 +45,14 @@ mod watch;
 pub mod waves;
 
 pub use bench::Bench;
+pub use build_error::{BuildError, LoadError, TraceError};
 pub use job::{Job, JobError, Limits, Responder, TraceWindow};
 pub use layout::Probe;
-pub use model::{Library, LoadError, Model, TraceError};
+pub use model::{Library, Model};
 pub use outcome::{
     Counts, Difference, Fault, Hung, Mismatch, Outcome, Place, StreamCount, StreamState,
 };
 pub use ports::PortError;
 pub use speed::{compare_speed, Speed, SpeedError};
 pub use stalls::{Pattern, Stalls};
-pub use verilate::{BuildError, Builder, Progress, Spec};
+pub use verilate::{Builder, Progress, Spec};

@@ -8,21 +8,21 @@
 //! [`Cursors`], which know the length that each stream reads.
 #![allow(unsafe_code)]
 
+use crate::build_error::{LoadError, TraceError};
 use crate::cover::Collector;
 use crate::cursors::{Cursor, Cursors, Words};
 use crate::kept;
 use crate::layout::{Layout, Probe, CLOCK, RESET};
+use crate::sources;
 use crate::watch::Watched;
 use libloading::Library as Object;
 use std::ffi::{c_char, c_int, c_void, CStr, CString};
 use std::ops::Range;
 use std::os::unix::ffi::OsStrExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::ptr::NonNull;
-use std::sync::{Arc, Mutex, PoisonError};
-use thiserror::Error;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use wheatstone_golden::interface::{Direction, Interface};
-use wheatstone_golden::text::printable_path;
 
 type Handle = *mut c_void;
 
@@ -69,54 +69,6 @@ api! {
     bench: fn(Handle, *const u32, u64, *const *const u64, *const u64, u64) -> u64;
 }
 
-/// A model could not be loaded or created.
-#[derive(Debug, Error)]
-pub enum LoadError {
-    /// The dynamic linker refused the shared object.
-    #[error("cannot load {}: {source}", printable_path(.path))]
-    Object {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: libloading::Error,
-    },
-    /// There is no room for a copy of it.
-    #[error("cannot copy {}: {source}", printable_path(.path))]
-    Copy {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// The file is not the one that was built.
-    #[error("{} is not the model it should be; delete it", printable_path(.path))]
-    Stale {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The masks of a cycle have 31 bits for the module's streams and 64 for those watched.
-    #[error("module {0} has more than 31 streams, or more than 64 that are watched")]
-    TooManyStreams(String),
-    /// The module stopped before the first clock, or a probe was not found in it.
-    #[error("module {module} does not start: {message}")]
-    Start {
-        /// The module.
-        module: String,
-        /// What happened.
-        message: String,
-    },
-}
-
-/// A trace file could not be opened.
-#[derive(Debug, Error)]
-#[error("cannot write the waveform {}", printable_path(.path))]
-pub struct TraceError {
-    /// The file.
-    pub path: PathBuf,
-    /// Why, where the system said so.
-    pub source: Option<std::io::Error>,
-}
-
 struct Loaded {
     api: Api,
     interface: Interface,
@@ -130,6 +82,8 @@ struct Loaded {
 #[derive(Clone)]
 pub struct Library {
     loaded: Arc<Loaded>,
+    /// The folder of the Verilog, as messages name it.
+    rtl: Arc<Path>,
     /// Where instances leave their coverage.
     collector: Option<Arc<Collector>>,
     /// Static inputs of the last run of which the coverage was counted.
@@ -150,12 +104,13 @@ impl Library {
             return Err(LoadError::TooManyStreams(interface.module.to_owned()));
         }
         let at = |source| LoadError::Object { path: path.to_owned(), source };
-        let _watched = Watched::new(interface.module);
         let private = kept::copy(path, content)
             .map_err(|source| LoadError::Copy { path: path.to_owned(), source })?;
+        let one = one_at_a_time();
+        let _watched = Watched::new(interface.module);
         // SAFETY: the object's initialisers are those of Verilator's runtime and the C++ library.
         let object = unsafe { Object::new(private.path().join(kept::COPY)) }.map_err(at)?;
-        drop(private);
+        drop((private, one));
         // SAFETY: every shim has this function; a foreign object lacks it and is refused.
         let found = unsafe {
             let key = object.get::<unsafe extern "C" fn() -> *const c_char>(b"wheatstone_key\0");
@@ -168,12 +123,23 @@ impl Library {
         let api = unsafe { Api::of(&object) }.map_err(at)?;
         let (interface, probes) = (interface.clone(), probes.to_vec());
         let loaded = Loaded { api, interface, probes, layout, _object: object };
-        Ok(Library { loaded: Arc::new(loaded), collector: None, statics: Arc::default() })
+        let (loaded, rtl) = (Arc::new(loaded), Path::new("rtl").into());
+        Ok(Library { loaded, rtl, collector: None, statics: Arc::default() })
+    }
+
+    /// The same, with the Verilog of this folder.
+    pub(crate) fn of_folder(self, rtl: &Path) -> Library {
+        Library { rtl: rtl.into(), ..self }
     }
 
     /// The same, whose instances leave their coverage in `collector` when they are dropped.
     pub(crate) fn covering(self, collector: Arc<Collector>) -> Library {
         Library { collector: Some(collector), ..self }
+    }
+
+    /// What the model says, with its files as messages name them.
+    fn named(&self, text: &CStr) -> String {
+        sources::named_from(&self.rtl, &text.to_string_lossy())
     }
 
     /// Notes the static inputs of a run; gives those of the run before, none at first.
@@ -230,8 +196,12 @@ pub struct Model {
 // SAFETY: a model has no thread of its own and keeps no pointer to thread-local data.
 unsafe impl Send for Model {}
 
-/// Verilator's random seed is global to a library: one instance is made at a time.
-static CREATION: Mutex<()> = Mutex::new(());
+/// One library is loaded, and one instance made, at a time: Verilator's random seed is global to a library, and the
+/// loader has a lock of its own. Who waits for this one is not watched as a model at work.
+fn one_at_a_time() -> MutexGuard<'static, ()> {
+    static ONE: Mutex<()> = Mutex::new(());
+    ONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 impl Model {
     /// A new instance, in reset, with every register and input at a random value of this seed.
@@ -242,15 +212,14 @@ impl Model {
         let start = |message: &[u8]| LoadError::Start {
             module: library.interface().module.to_owned(),
             message: CStr::from_bytes_until_nul(message)
-                .map_or_else(|_| String::new(), |text| text.to_string_lossy().into_owned()),
+                .map_or_else(|_| String::new(), |text| library.named(text)),
         };
         let api = &library.loaded.api;
+        let one = one_at_a_time();
         let _watched = Watched::new(library.interface().module);
         // SAFETY: the buffer is as long as said and begins with a zero.
-        let handle = unsafe {
-            let _one = CREATION.lock().unwrap_or_else(PoisonError::into_inner);
-            (api.new)(folded, message.as_mut_ptr().cast(), message.len())
-        };
+        let handle = unsafe { (api.new)(folded, message.as_mut_ptr().cast(), message.len()) };
+        drop(one);
         let handle = NonNull::new(handle).ok_or_else(|| start(&message))?;
         let count = library.layout().signals.len() as u32;
         // SAFETY: the handle was just made by the same library.
@@ -415,7 +384,7 @@ impl Model {
         // SAFETY: the handle lives; the text is in it and ends with a zero.
         unsafe {
             let text = (self.library.loaded.api.stopped)(self.handle.as_ptr());
-            (!text.is_null()).then(|| CStr::from_ptr(text).to_string_lossy().into_owned())
+            (!text.is_null()).then(|| self.library.named(CStr::from_ptr(text)))
         }
     }
 

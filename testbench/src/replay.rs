@@ -132,6 +132,8 @@ impl Replayer {
 /// Name of the copy of a pack in the folder of a run, and of the copies of its Verilog.
 const PACK: &str = "pack";
 const VERILOG: &str = "rtl";
+/// What Icarus compiles.
+const COMPILED: &str = "replay.vvp";
 
 /// One replay in a folder of its own.
 struct Run<'a> {
@@ -163,9 +165,13 @@ impl Run<'_> {
         let start = Instant::now();
         let mut command = Command::new(&iverilog.program);
         command.args(["-g2005", "-s", "replay"]).args(options).args(["-I", PACK]);
-        command.args(["-o", "replay.vvp"]).arg(Path::new(PACK).join("replay.v")).args(files);
-        self.run(&ICARUS, &mut command)?;
-        let output = self.process(&VVP, Command::new(&vvp.program).arg("replay.vvp"))?;
+        command.args(["-o", COMPILED]).arg(Path::new(PACK).join("replay.v")).args(files);
+        let said = self.run(&ICARUS, &mut command)?;
+        if !self.folder.join(COMPILED).is_file() {
+            let why = format!("it ended well, but wrote no {COMPILED}\n{said}");
+            return Err(self.failed(&ICARUS, &why));
+        }
+        let output = self.process(&VVP, Command::new(&vvp.program).arg(COMPILED))?;
         self.verdict(&VVP, &output, start)
     }
 
@@ -241,6 +247,7 @@ impl Run<'_> {
 
     fn failed(&self, tool: &'static Tool, said: &str) -> ReplayError {
         let said = said.lines().take(8).collect::<Vec<_>>().join("\n");
+        let said = sources::named_from(&self.replayer.synthesiser.rtl, &said);
         ReplayError::Failed { tool: tool.program, pack: self.pack.folder.clone(), said }
     }
 }

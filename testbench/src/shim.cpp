@@ -1,6 +1,7 @@
 // The part of the shim that is the same for every model. Before it, the generated text defines
 // the names used here: V (the model), ROOT_EVAL, SIGNALS, KEY, and the functions on its ports.
 
+// Each of these is noexcept: the frames of their caller are not C++.
 #define API extern "C" __attribute__((visibility("default")))
 
 namespace {
@@ -22,8 +23,9 @@ void raise(const char* what, const char* file, int line) {
     if (event.text[0]) return;  // the first is the cause
     const char* said = printed;
     while (*said == ' ' || *said == '\n') ++said;
-    std::snprintf(event.text, sizeof event.text, "%s at %s:%d%s%s", what, file ? file : "?", line,
-                  *said ? ": " : "", said);
+    char place[256] = "";
+    if (file) std::snprintf(place, sizeof place, " at %s:%d", file, line);
+    std::snprintf(event.text, sizeof event.text, "%s%s%s%s", what, place, *said ? ": " : "", said);
     for (size_t n = std::strlen(event.text); n && event.text[n - 1] == '\n'; --n) {
         event.text[n - 1] = 0;
     }
@@ -70,17 +72,37 @@ void vl_fatal(const char* file, int line, const char*, const char* message) {
     throw Fatal{};
 }
 
-// A model that ends the process by $c or DPI would look like a run that came to its end. The linker puts these
-// in the place of the functions of that name.
+// Takes what is thrown, in a handler.
+void caught() {
+    try {
+        throw;
+    } catch (const Fatal&) {
+    } catch (const std::exception& error) {
+        char what[256];
+        std::snprintf(what, sizeof what, "the model throws an exception: %s", error.what());
+        raise(what, nullptr, 0);
+    } catch (...) {
+        raise("the model throws an exception", nullptr, 0);
+    }
+}
+
+// A model that ends the process by $c or DPI would look like a run that came to its end, and one that doubles it
+// would tell everything twice. The linker puts these in the place of the functions of that name.
 [[noreturn]] static void refuse_exit(const char* name, int status) {
     // Past what a module prints, which is kept from the terminal.
     dprintf(2, "\nerror: the model calls %s(%d)\n", name, status);
+    std::abort();
+}
+[[noreturn]] static void refuse_fork(const char* name) {
+    dprintf(2, "\nerror: the model calls %s(): two processes would go on with the run\n", name);
     std::abort();
 }
 extern "C" [[noreturn]] void __wrap_exit(int status) { refuse_exit("exit", status); }
 extern "C" [[noreturn]] void __wrap__exit(int status) { refuse_exit("_exit", status); }
 extern "C" [[noreturn]] void __wrap__Exit(int status) { refuse_exit("_Exit", status); }
 extern "C" [[noreturn]] void __wrap_quick_exit(int status) { refuse_exit("quick_exit", status); }
+extern "C" [[noreturn]] int __wrap_fork() { refuse_fork("fork"); }
+extern "C" [[noreturn]] int __wrap_vfork() { refuse_fork("vfork"); }
 
 // What the model prints is kept: it explains the $stop that follows.
 extern "C" int wheatstone_print(const char* format, ...) {
@@ -147,10 +169,8 @@ struct Handle {
         if (dead) return;
         try {
             f();
-        } catch (const Fatal&) {
-            dead = true;
-        } catch (const std::exception& error) {
-            raise(error.what(), __FILE__, __LINE__);
+        } catch (...) {
+            caught();
             dead = true;
         }
         collect();
@@ -195,10 +215,10 @@ inline Pair judge(Handle* h, uint64_t cycle, uint64_t drives, Cursor* cursors) {
 
 }  // namespace
 
-API const char* wheatstone_key() { return KEY; }
+API const char* wheatstone_key() noexcept { return KEY; }
 
 // Must not run at the same time as another one: Verilator's seeds are global.
-API Handle* wheatstone_new(int seed, char* error, size_t size) {
+API Handle* wheatstone_new(int seed, char* error, size_t size) noexcept {
     std::unique_ptr<Handle> h{new Handle{seed}};
     Verilated::threadContextp(&h->context);
     try {
@@ -211,8 +231,9 @@ API Handle* wheatstone_new(int seed, char* error, size_t size) {
         h->collect();
         if (h->stopped) std::snprintf(error, size, "%s", h->text);
     } catch (const std::exception& e) {
-        std::snprintf(error, size, "%s", e.what());
-    } catch (const Fatal&) {
+        std::snprintf(error, size, "%s", *e.what() ? e.what() : "the model throws an exception");
+    } catch (...) {
+        caught();
         h->collect();
         std::snprintf(error, size, "%s", h->text);
     }
@@ -221,15 +242,15 @@ API Handle* wheatstone_new(int seed, char* error, size_t size) {
     return error[0] ? nullptr : h.release();
 }
 
-API void wheatstone_delete(Handle* h) {
+API void wheatstone_delete(Handle* h) noexcept {
     if (h->trace) h->trace->close();
     h->guarded([=] { h->top->final(); });
     delete h;
 }
 
-API void* wheatstone_signal(Handle* h, uint32_t index) { return index < SIGNALS ? h->signals[index] : nullptr; }
+API void* wheatstone_signal(Handle* h, uint32_t index) noexcept { return index < SIGNALS ? h->signals[index] : nullptr; }
 
-API void wheatstone_eval(Handle* h) {
+API void wheatstone_eval(Handle* h) noexcept {
     h->guarded([=] { h->top->eval(); });
 }
 
@@ -244,7 +265,7 @@ inline void apply(V___024root* root, uint32_t drives, uint64_t pokes, const Curs
 // One clock: finishes the cycle before with the rising edge, applies the inputs of this cycle
 // and lets everything settle.
 API Pair wheatstone_cycle(Handle* h, uint64_t cycle, uint32_t drives, uint64_t pokes, Cursor* cursors,
-                          const uint64_t* words) {
+                          const uint64_t* words) noexcept {
     V___024root* const root = h->root;
     if (VL_UNLIKELY(h->dead)) return {0, STOPPED};
     try {
@@ -253,7 +274,8 @@ API Pair wheatstone_cycle(Handle* h, uint64_t cycle, uint32_t drives, uint64_t p
         apply(root, drives, pokes, cursors, words);
         root->clk_i = 0;
         ROOT_EVAL(root);
-    } catch (const Fatal&) {
+    } catch (...) {
+        caught();
         h->dead = true;
     }
     return judge(h, cycle, drives, cursors);
@@ -262,7 +284,7 @@ API Pair wheatstone_cycle(Handle* h, uint64_t cycle, uint32_t drives, uint64_t p
 // The same with a trace: inputs change with the clock's rising edge, at the falling edge
 // everything is settled, as in a textbook. The additional evaluation has no edge.
 API Pair wheatstone_cycle_traced(Handle* h, uint64_t cycle, uint32_t drives, uint64_t pokes, Cursor* cursors,
-                                 const uint64_t* words) {
+                                 const uint64_t* words) noexcept {
     V___024root* const root = h->root;
     h->guarded([=] {
         root->clk_i = 1;
@@ -278,26 +300,26 @@ API Pair wheatstone_cycle_traced(Handle* h, uint64_t cycle, uint32_t drives, uin
 }
 
 // Compares the beats taken inside the module and moves their cursors.
-API Pair wheatstone_probe(const Handle* h, uint64_t cycle, uint64_t watched, Cursor* cursors) {
+API Pair wheatstone_probe(const Handle* h, uint64_t cycle, uint64_t watched, Cursor* cursors) noexcept {
     return probe(*h, cycle, watched, cursors);
 }
 
 // What the model counts of its own code, if it was built so.
-API void wheatstone_coverage_clear(Handle* h) {
+API void wheatstone_coverage_clear(Handle* h) noexcept {
 #if VM_COVERAGE
     h->context.coveragep()->zero();
 #endif
 }
 
-API void wheatstone_coverage_write(Handle* h, const char* path) {
+API void wheatstone_coverage_write(Handle* h, const char* path) noexcept {
 #if VM_COVERAGE
     h->guarded([=] { h->context.coveragep()->write(path); });
 #endif
 }
 
-API const char* wheatstone_stopped(const Handle* h) { return h->stopped ? h->text : nullptr; }
+API const char* wheatstone_stopped(const Handle* h) noexcept { return h->stopped ? h->text : nullptr; }
 
-API bool wheatstone_trace_open(Handle* h, const char* path) {
+API bool wheatstone_trace_open(Handle* h, const char* path) noexcept {
 #if VM_TRACE
     h->guarded([=] {
         h->trace.reset(new VerilatedFstC);
@@ -310,11 +332,11 @@ API bool wheatstone_trace_open(Handle* h, const char* path) {
     return h->trace && h->trace->isOpen();
 }
 
-API void wheatstone_trace_flush(Handle* h) {
+API void wheatstone_trace_flush(Handle* h) noexcept {
     if (h->trace) h->trace->flush();
 }
 
-API void wheatstone_trace_close(Handle* h) {
+API void wheatstone_trace_close(Handle* h) noexcept {
     if (h->trace) h->trace->close();
     h->trace.reset();
 }

@@ -38,8 +38,8 @@ pub(crate) const MODEL_HEADERS: &str = "#include <atomic>
 #endif
 ";
 
-/// Functions that end a process, which the shim replaces.
-pub(crate) const REPLACED: [&str; 4] = ["exit", "_exit", "_Exit", "quick_exit"];
+/// Functions that end or double a process, which the shim replaces.
+pub(crate) const REPLACED: [&str; 6] = ["exit", "_exit", "_Exit", "quick_exit", "fork", "vfork"];
 
 /// The whole shim, but for the list of Verilator's files that it includes.
 pub(crate) fn text(interface: &Interface, probes: &[Probe], layout: &Layout) -> String {
@@ -251,7 +251,7 @@ fn bench(text: &mut String, layout: &Layout) {
     let name = |index: usize| &layout.signals[index].name;
     text.push_str(
         "API uint64_t wheatstone_bench(Handle* h, const uint32_t* gates, uint64_t period,\n        \
-         const uint64_t* const* columns, const uint64_t* beats, uint64_t limit) {\n    \
+         const uint64_t* const* columns, const uint64_t* beats, uint64_t limit) noexcept {\n    \
          V* const top = h->top.get();\n",
     );
     for bit in 0..layout.streams.len() {

@@ -9,10 +9,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use wheatstone_golden::files;
+use wheatstone_golden::files::{self, irregular};
 
 /// The line from which on a file has properties, which provers alone read, up to the next `` `endif ``.
 pub(crate) const FORMAL: &str = "`ifdef FORMAL\n";
+
+/// The folder in which tools that name it find the Verilog.
+const FOLDER: &str = "rtl/";
 
 /// Bytes of a file; none comes near.
 pub(crate) const LIMIT: u64 = 64 << 20;
@@ -37,7 +40,10 @@ pub(crate) fn read(rtl: &Path, module: &str) -> Result<Sources, Unreadable> {
     let mut names = BTreeSet::new();
     for entry in fs::read_dir(rtl).map_err(at(rtl))? {
         let entry = entry.map_err(at(rtl))?;
-        if let (true, Ok(name)) = (entry.path().is_file(), entry.file_name().into_string()) {
+        // A folder, unless it has the name of a file, is none that is meant; anything else is read, or refused.
+        let path = entry.path();
+        let is_file = !path.is_dir() || path.extension().is_some();
+        if let (true, Ok(name)) = (is_file, entry.file_name().into_string()) {
             names.insert(name);
         }
     }
@@ -51,6 +57,7 @@ pub(crate) fn read(rtl: &Path, module: &str) -> Result<Sources, Unreadable> {
         let content = files::read(&path, LIMIT)
             .map_err(|error| Unreadable { path: error.file, source: error.source })?;
         let text = String::from_utf8_lossy(&content);
+        check_named(rtl, &text).map_err(at(&path))?;
         let is_word = |c: char| c.is_ascii_alphanumeric() || "_$.".contains(c);
         for word in text.split(|c: char| !is_word(c)) {
             let stem = word.split('.').next().unwrap_or(word);
@@ -63,6 +70,42 @@ pub(crate) fn read(rtl: &Path, module: &str) -> Result<Sources, Unreadable> {
         sources.insert(name, content);
     }
     Ok(sources)
+}
+
+/// Refuses files that a text names and that no tool may read: what is included from elsewhere, which no cache would know
+/// of, and what is no regular file, which may have no end.
+fn check_named(rtl: &Path, text: &str) -> io::Result<()> {
+    for keyword in ["`include", "$readmemh", "$readmemb"] {
+        for rest in text.split(keyword).skip(1) {
+            let rest = rest.trim_start_matches([' ', '\t', '\r', '\n', '(']);
+            let name = rest.strip_prefix('"').and_then(|rest| rest.split('"').next());
+            let Some(name) = name else { continue };
+            let refuse = |why: &str| Err(io::Error::other(format!("{keyword} {name:?}: {why}")));
+            let kind = [rtl, Path::new(".")].iter().find_map(|base| irregular(&base.join(name)));
+            if let Some(kind) = kind {
+                return refuse(&format!("expected a regular file, found {kind}"));
+            }
+            if keyword == "`include" && name.contains('/') {
+                return refuse("only files of the same folder are read, by their bare names");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A text of a tool, which has its files in `rtl`, with the names of the folder that they were copied from.
+pub(crate) fn named_from(rtl: &Path, text: &str) -> String {
+    let mut parts = text.split(FOLDER);
+    let mut named = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        // Not at the end of a longer path.
+        match named.ends_with(|c: char| c.is_alphanumeric() || "_-./".contains(c)) {
+            true => named.push_str(FOLDER),
+            false => named.push_str(&rtl.join("").display().to_string()),
+        }
+        named.push_str(part);
+    }
+    named
 }
 
 /// What is hardware of it: without the properties.
@@ -99,6 +142,48 @@ mod tests {
         let sources = read(folder.path(), "top").map_err(|e| e.source).unwrap();
         let names: Vec<&str> = sources.keys().map(String::as_str).collect();
         assert_eq!(names, ["formats.vh", "leaf.v", "rom.v", "table.mem", "top.v", "unit.v"]);
+    }
+
+    #[test]
+    fn what_may_have_no_end_is_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let top = folder.path().join("top.v");
+        let mkfifo = std::process::Command::new("mkfifo").arg(folder.path().join("pipe")).status();
+        assert!(mkfifo.unwrap().success());
+        fs::create_dir(folder.path().join("sub.v")).unwrap();
+        fs::create_dir(folder.path().join("notes")).unwrap();
+        for (text, expected) in [
+            (
+                "`include \"/dev/zero\"",
+                "`include \"/dev/zero\": expected a regular file, found a device",
+            ),
+            (
+                "$readmemh(\"/dev/zero\", m)",
+                "$readmemh \"/dev/zero\": expected a regular file, found a device",
+            ),
+            (
+                "`include \"pipe\"",
+                "`include \"pipe\": expected a regular file, found a pipe (FIFO)",
+            ),
+            ("$readmemb( \"pipe\", m)", "found a pipe (FIFO)"),
+            ("`include \"/etc/passwd\"", "only files of the same folder are read"),
+            ("`include \"../x.vh\"", "only files of the same folder are read"),
+            ("sub u();", "expected a regular file, found a folder"),
+        ] {
+            fs::write(&top, text).unwrap();
+            let error = read(folder.path(), "top").map(drop).map_err(|e| e.source.to_string());
+            assert!(error.as_ref().is_err_and(|e| e.contains(expected)), "{text}: {error:?}");
+        }
+        fs::write(&top, "// notes: `include none, $readmemh(FILE, m)").unwrap();
+        assert!(read(folder.path(), "top").is_ok());
+    }
+
+    #[test]
+    fn tools_speak_of_the_folder_of_the_user() {
+        let named = |text| named_from(Path::new("/w/rtl"), text);
+        assert_eq!(named("%Error: rtl/a.v:3: x"), "%Error: /w/rtl/a.v:3: x");
+        assert_eq!(named("at rtl/a.v:3 and (rtl/b.vh)"), "at /w/rtl/a.v:3 and (/w/rtl/b.vh)");
+        assert_eq!(named("/w/rtl/a.v my_rtl/b.v"), "/w/rtl/a.v my_rtl/b.v");
     }
 
     #[test]

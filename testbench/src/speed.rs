@@ -2,8 +2,9 @@
 //! same stalls that checks nothing.
 
 use crate::bench::Bench;
+use crate::build_error::LoadError;
 use crate::job::{Job, JobError};
-use crate::model::{Library, LoadError};
+use crate::model::Library;
 use crate::outcome::Outcome;
 use std::time::Instant;
 use thiserror::Error;

@@ -1,12 +1,12 @@
 //! The programs that the test bench calls: where they are, whether they are new enough, and
 //! the command that installs them.
 
+use crate::ask::{first_line, header, include};
 pub use crate::doctor::{Doctor, Examined};
 use std::ffi::{OsStr, OsString};
-use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus};
+use std::path::PathBuf;
+use std::process::Command;
 use thiserror::Error;
-use wheatstone_process::{Output, Process, ProcessError, ANSWER};
 
 /// A version of a tool: its first two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -322,45 +322,6 @@ pub enum ToolError {
     },
 }
 
-/// First non-empty line that a program prints on its standard output, or else on standard error, and how it
-/// ended.
-fn first_line(
-    program: &Path,
-    arguments: &[&str],
-    path: &OsStr,
-) -> Result<(Option<String>, ExitStatus), ProcessError> {
-    let name = program.file_name().unwrap_or_default().to_string_lossy();
-    let mut command = Command::new(program);
-    command.args(arguments).env("PATH", path);
-    let call = Process::new(name, &mut command).on(arguments.join(" ")).within(ANSWER);
-    let output = call.run()?;
-    let line = [output.stdout, output.stderr].iter().find_map(|text| {
-        let text = String::from_utf8_lossy(text);
-        text.lines().map(str::trim).find(|line| !line.is_empty()).map(str::to_owned)
-    });
-    Ok((line, output.status))
-}
-
-/// Verilator's folder with the C++ headers and sources that every model uses.
-pub(crate) fn include(verilator: &Found, path: &OsStr) -> Result<PathBuf, ToolError> {
-    let call = ["--getenv", "VERILATOR_ROOT"];
-    let answer = first_line(&verilator.program, &call, path).map_err(|error| error.to_string());
-    let root = answer.and_then(|(root, status)| {
-        let root = root.ok_or(format!("it printed nothing ({status})"))?;
-        let include = Path::new(&root).join("include");
-        let is_there = include.join("verilated.cpp").is_file();
-        is_there
-            .then_some(include)
-            .ok_or(format!("it printed “{root}”, where no include/verilated.cpp is"))
-    });
-    root.map_err(|why| ToolError::Call {
-        tool: &VERILATOR,
-        program: verilator.program.clone(),
-        call: call.join(" "),
-        why,
-    })
-}
-
 /// Where the scripts put what comes from PyPI, seen from the workspace's folder.
 pub const PYTHON_TOOLS: &str = "target/wheatstone/python";
 
@@ -417,25 +378,6 @@ impl Toolchain {
     pub(crate) fn check_zlib(&self) -> Result<(), ToolError> {
         header(&GXX, &self.gxx, &self.path, &ZLIB).map(drop)
     }
-}
-
-/// Asks a compiler for the header that a tool stands for.
-pub(crate) fn header(
-    compiler: &'static Tool,
-    found: &Found,
-    path: &OsStr,
-    header: &'static Tool,
-) -> Result<PathBuf, ToolError> {
-    let mut command = Command::new(&found.program);
-    command.args(["-E", "-M", "-x", "c++", "-include", header.program, "/dev/null"]);
-    command.env("PATH", path);
-    let output = Process::new(compiler.program, &mut command).on(header.program).within(ANSWER);
-    let output = output.run().ok().filter(Output::succeeded);
-    let output = output.ok_or(ToolError::Missing(header))?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    let end = format!("/{}", header.program);
-    let file = text.split_whitespace().find(|word| word.ends_with(&end));
-    file.map(PathBuf::from).ok_or(ToolError::Missing(header))
 }
 
 #[cfg(test)]

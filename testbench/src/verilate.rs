@@ -8,14 +8,15 @@
 
 mod runtime;
 
+use crate::build_error::{BuildError, LoadError};
 use crate::cover::Collector;
 use crate::kept::{self, entry, short, Kept};
 use crate::layout::{Layout, Probe};
-use crate::model::{Library, LoadError};
-use crate::ports::{self, PortError};
+use crate::model::Library;
+use crate::ports;
 use crate::shim::{self, PREFIX};
 use crate::sources::{self, Sources};
-use crate::tools::{ToolError, Toolchain};
+use crate::tools::Toolchain;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Write as _};
@@ -23,11 +24,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use thiserror::Error;
-use wheatstone_golden::files::{publish, Lock, LockError, Scratch};
+use wheatstone_golden::files::{self, publish, Lock, Scratch};
 use wheatstone_golden::interface::Interface;
-use wheatstone_golden::text::printable_path;
-use wheatstone_process::{Process, ProcessError};
+use wheatstone_process::Process;
 
 /// Flags of every translation; `-fno-…` against wrong code of Verilator 5.006 (its issue #4832).
 const VERILATOR_FLAGS: &[&str] = &[
@@ -115,54 +114,6 @@ impl fmt::Display for Progress<'_> {
     }
 }
 
-/// A model could not be built.
-#[derive(Debug, Error)]
-pub enum BuildError {
-    /// A tool is missing or too old.
-    #[error(transparent)]
-    Tool(#[from] ToolError),
-    /// A Verilog file could not be read.
-    #[error("cannot read {}: {source}", printable_path(.path))]
-    Source {
-        /// The file or folder.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The cache could not be written.
-    #[error("cannot write {}: {source}", printable_path(.path))]
-    Cache {
-        /// The file or folder.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The module's ports are not those of its interface.
-    #[error(transparent)]
-    Port(#[from] PortError),
-    /// A tool did not run, or not to its end.
-    #[error(transparent)]
-    Process(#[from] ProcessError),
-    /// A tool refused the module.
-    #[error("{tool} failed on {module}:\n{lines}\n(all of it: {})", printable_path(.log))]
-    Failed {
-        /// Which tool.
-        tool: &'static str,
-        /// Which module.
-        module: String,
-        /// The first lines of what it said.
-        lines: String,
-        /// The file with all of it.
-        log: PathBuf,
-    },
-    /// Another process builds the same and does not come to an end.
-    #[error(transparent)]
-    Lock(LockError),
-    /// The finished model could not be loaded.
-    #[error(transparent)]
-    Load(#[from] LoadError),
-}
-
 type Callback = Box<dyn Fn(Progress<'_>) + Send + Sync>;
 
 /// Builds models and keeps them in a cache.
@@ -239,6 +190,7 @@ impl Builder {
                 }
             }
         };
+        let library = library.of_folder(spec.rtl);
         Ok(match &self.coverage {
             Some(collector) => library.covering(collector.clone()),
             None => library,
@@ -254,13 +206,13 @@ impl Builder {
         load: impl FnOnce(Vec<u8>) -> Result<Library, LoadError>,
     ) -> Result<Library, BuildError> {
         let module = job.spec.interface.module;
-        if folder.exists() {
+        if is_folder(folder)? {
             (self.progress)(Progress::Damaged(module));
         }
         (self.progress)(Progress::Building(module));
         let start = Instant::now();
         let temporary = self.scratch()?;
-        let content = job.build(key, temporary.path())?;
+        let content = job.build(key, temporary.path()).map_err(|e| e.named_from(job.spec.rtl))?;
         let library = load(content)?;
         persist(temporary, key, folder)?;
         (self.progress)(Progress::Built(module, start.elapsed()));
@@ -401,6 +353,21 @@ fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
+/// Whether something is kept in a folder of the cache; an error if there is something else in its place.
+fn is_folder(path: &Path) -> Result<bool, BuildError> {
+    match fs::metadata(path) {
+        Ok(there) if there.is_dir() => Ok(true),
+        Ok(_) => {
+            let source = io::Error::other(format!(
+                "expected a folder, found {}; delete it",
+                files::irregular(path).unwrap_or("a file")
+            ));
+            Err(BuildError::Cache { path: path.to_owned(), source })
+        }
+        Err(_) => Ok(false),
+    }
+}
+
 /// The C++ files that Verilator wrote, sorted.
 fn cpp_files(folder: &Path) -> Result<Vec<String>, BuildError> {
     let at = |source| BuildError::Cache { path: folder.to_owned(), source };
@@ -428,16 +395,17 @@ fn run(
     let output = Process::new(tool, &mut command).on(module).run()?;
     let mut text = output.said();
     if output.succeeded() {
-        match fs::read(made) {
+        let name = made.file_name().unwrap_or_default().display();
+        let why = match files::read(made, kept::LIMIT) {
             Ok(content) if is_whole(&content) => return Ok(content),
-            found => {
-                let found = if found.is_ok() { "only a part of" } else { "no" };
-                let name = made.file_name().unwrap_or_default().display();
-                text = format!("error: it ended well, but wrote {found} {name}\n{text}");
-            }
-        }
+            Ok(_) => format!("wrote only a part of {name}"),
+            Err(_) if !made.exists() => format!("wrote no {name}"),
+            Err(error) => format!("{name} cannot be read: {}", error.source),
+        };
+        text = format!("error: it ended well, but {why}\n{text}");
     }
-    write(log, text.as_bytes())?;
+    files::write(log, text.as_bytes())
+        .map_err(|e| BuildError::Cache { path: e.file, source: e.source })?;
     let all: Vec<&str> = text.lines().collect();
     let first = all.iter().position(|line| line.contains("rror")).unwrap_or(0);
     let lines = all[first..].iter().take(8).copied().collect::<Vec<_>>().join("\n");

@@ -10,6 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, Once, OnceLock, PoisonError};
 use std::thread;
 use std::time::Duration;
 use wheatstone_golden::files::remove_temporary;
+use wheatstone_process::{Activity, PATIENCE};
 
 /// Exit status of a run that ended before its work was done.
 pub(crate) const UNFINISHED: u8 = 4;
@@ -17,6 +18,9 @@ pub(crate) const UNFINISHED: u8 = 4;
 /// Processor time that a clock of a model may take, unless `--timeout` says otherwise: a million times what the
 /// largest one needs.
 const LIMIT: Duration = Duration::from_secs(20);
+/// Time that the thread of a model may sleep on one clock, unless `--timeout` says otherwise: longer than a slow disk
+/// keeps it.
+const ASLEEP: Duration = Duration::from_secs(120);
 /// How often the models are looked at.
 const LOOK: Duration = Duration::from_millis(500);
 
@@ -25,8 +29,73 @@ struct Entry {
     thread: i32,
     what: String,
     clock: AtomicU64,
-    /// The clock that was seen last, and the processor time of the thread then.
-    seen: Mutex<Option<(u64, Duration)>>,
+    stay: Mutex<Stay>,
+}
+
+/// How long a model may stay on one clock.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    processor: Duration,
+    asleep: Duration,
+}
+
+impl Limits {
+    fn set() -> Limits {
+        let set = wheatstone_process::set();
+        Limits { processor: set.unwrap_or(LIMIT), asleep: set.unwrap_or(ASLEEP) }
+    }
+}
+
+/// A model's stay on a clock. Its times are counted in looks: while the whole process is stopped, or the machine is
+/// asleep, nobody waits.
+#[derive(Debug, Default)]
+struct Stay {
+    clock: Option<u64>,
+    /// Processor time of the thread when the clock was first seen, and at the last look.
+    from: Duration,
+    last: Duration,
+    /// Time since then, and the end of it in which the thread slept.
+    time: Duration,
+    asleep: Duration,
+    /// The time when it is told next.
+    told: Duration,
+}
+
+/// What is to be done about a stay.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Finding {
+    /// It lasts: tell.
+    Long(Duration),
+    /// It used up its processor time: end.
+    Loops,
+    /// The thread sleeps: end.
+    Sleeps,
+}
+
+impl Stay {
+    /// Takes in what is seen at a look. One that is about to run but gets no processor is not asleep.
+    fn look(&mut self, clock: u64, seen: Activity, limits: Limits) -> Option<Finding> {
+        if self.clock != Some(clock) {
+            let (from, last, told) = (seen.processor, seen.processor, PATIENCE);
+            *self = Stay { clock: Some(clock), from, last, told, ..Stay::default() };
+            return None;
+        }
+        self.time += LOOK;
+        let used = seen.processor.saturating_sub(self.last);
+        let sleeps = seen.sleeps && used < LOOK / 10;
+        self.asleep = if sleeps { self.asleep + LOOK } else { Duration::ZERO };
+        self.last = seen.processor;
+        if seen.processor.saturating_sub(self.from) >= limits.processor {
+            return Some(Finding::Loops);
+        }
+        if self.asleep >= limits.asleep {
+            return Some(Finding::Sleeps);
+        }
+        (self.time >= self.told).then(|| {
+            self.told *= 4;
+            Finding::Long(self.time)
+        })
+    }
 }
 
 static RUNNING: Mutex<Vec<Arc<Entry>>> = Mutex::new(Vec::new());
@@ -56,7 +125,7 @@ impl Watched {
         let what = if case.is_empty() { module.to_owned() } else { case };
         let thread = gettid().as_raw_nonzero().get();
         let entry =
-            Arc::new(Entry { thread, what, clock: AtomicU64::new(0), seen: Mutex::new(None) });
+            Arc::new(Entry { thread, what, clock: AtomicU64::new(0), stay: Mutex::default() });
         let mut running = running();
         running.push(entry.clone());
         note(&running);
@@ -78,40 +147,56 @@ impl Drop for Watched {
     }
 }
 
-/// Ends the process if a model stays on the same clock.
+/// Tells of models that stay on the same clock, and ends the process if one does for too long.
 fn watch() {
     loop {
         thread::sleep(LOOK);
-        let limit = wheatstone_process::set().unwrap_or(LIMIT);
-        let stuck = running().iter().find(|entry| entry.is_stuck(limit)).cloned();
-        if let Some(entry) = stuck {
-            let text = format!(
-                "error: {}: the model did not come to the end of a clock within {} s of processor time, and was \
-                 stopped: is there a loop in which no time passes, such as `forever` without a delay? Where a clock \
-                 needs longer, say so with --timeout SECONDS",
-                entry.what,
-                limit.as_secs()
-            );
-            if !wheatstone_process::tell(&text) {
-                eprintln!("{text}");
+        let limits = Limits::set();
+        let found = |entry: &Arc<Entry>| Some((entry.clone(), entry.look(limits)?));
+        let found: Vec<(Arc<Entry>, Finding)> = running().iter().filter_map(found).collect();
+        for (entry, finding) in found {
+            let text = told(&entry.what, finding, limits);
+            let shown = wheatstone_process::tell(&text);
+            if let Finding::Loops | Finding::Sleeps = finding {
+                if !shown {
+                    eprintln!("{text}");
+                }
+                end(UNFINISHED);
             }
-            end(UNFINISHED);
         }
     }
 }
 
-impl Entry {
-    fn is_stuck(&self, limit: Duration) -> bool {
-        let Ok(now) = wheatstone_process::of_thread(self.thread) else { return false };
-        let clock = self.clock.load(Ordering::Relaxed);
-        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
-        match *seen {
-            Some((before, then)) if before == clock => now.saturating_sub(then) >= limit,
-            _ => {
-                *seen = Some((clock, now));
-                false
-            }
+/// What the user is told of a model.
+fn told(what: &str, finding: Finding, limits: Limits) -> String {
+    let [processor, asleep] = [limits.processor, limits.asleep].map(|limit| limit.as_secs());
+    let end = match finding {
+        Finding::Long(time) => {
+            return format!(
+                "waiting for {what}: {} s on one clock of the model so far; it is stopped after {processor} s of \
+                 processor time or {asleep} s of sleep, see --timeout",
+                time.as_secs()
+            )
         }
+        Finding::Loops => format!(
+            "did not come to the end of a clock within {processor} s of processor time, and was stopped: is there a \
+             loop in which no time passes, such as `forever` without a delay?"
+        ),
+        Finding::Sleeps => format!(
+            "has been asleep for {asleep} s on one clock, and was stopped: does it wait for a pipe, a device or \
+             another program, as $readmemh of a pipe does?"
+        ),
+    };
+    format!(
+        "error: {what}: the model {end} Where a clock needs longer, say so with --timeout SECONDS"
+    )
+}
+
+impl Entry {
+    fn look(&self, limits: Limits) -> Option<Finding> {
+        let seen = wheatstone_process::of_thread(self.thread).ok()?;
+        let clock = self.clock.load(Ordering::Relaxed);
+        self.stay.lock().unwrap_or_else(PoisonError::into_inner).look(clock, seen, limits)
     }
 }
 
@@ -146,15 +231,21 @@ fn note(running: &[Arc<Entry>]) {
     }
 }
 
-/// Tells a supervisor that the work is done, with this exit status.
+/// Ends what models and tools have left behind, and tells a supervisor that the work is done, with this exit status.
 pub(crate) fn finish(status: u8) {
+    // Without a supervisor there are children that this process has not started: those of a shell that became it.
+    if RECORD.get().is_some() {
+        wheatstone_process::end_orphans();
+    }
     put(format!("{status:3}\n").as_bytes(), 0);
 }
 
 /// Ends this process at once, as it is told to, with its children and all that is temporary.
 pub(crate) fn end(status: u8) -> ! {
-    finish(status);
-    wheatstone_process::end_now(status, remove_temporary)
+    wheatstone_process::end_now(status, || {
+        finish(status);
+        remove_temporary();
+    })
 }
 
 /// What a record says: the exit status, and what is simulated.
@@ -169,6 +260,62 @@ pub(crate) fn parse(record: &[u8]) -> (Option<u8>, Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const LIMITS: Limits =
+        Limits { processor: Duration::from_secs(20), asleep: Duration::from_secs(120) };
+
+    /// What comes of a stay on one clock, a look after another: the number of the look, from 1, and the finding.
+    fn findings(looks: impl IntoIterator<Item = (u64, bool)>) -> Vec<(usize, Finding)> {
+        let mut stay = Stay::default();
+        let mut found = Vec::new();
+        for (n, (milliseconds, sleeps)) in looks.into_iter().enumerate() {
+            let seen = Activity { processor: Duration::from_millis(milliseconds), sleeps };
+            if let Some(finding) = stay.look(7, seen, LIMITS) {
+                found.push((n, finding));
+                if !matches!(finding, Finding::Long(_)) {
+                    break;
+                }
+            }
+        }
+        found
+    }
+
+    fn long(looks: usize) -> (usize, Finding) {
+        (looks, Finding::Long(LOOK * looks as u32))
+    }
+
+    #[test]
+    fn a_model_that_loops_or_sleeps_is_told_and_ended() {
+        // It has used time before this clock.
+        let loops = (0..).map(|n| (5_000 + 500 * n, false));
+        assert_eq!(findings(loops), [long(20), (40, Finding::Loops)]);
+        // With half a processor it takes twice as long.
+        let shared = (0..).map(|n| (250 * n, n % 2 == 0));
+        assert_eq!(findings(shared), [long(20), (80, Finding::Loops)]);
+        let sleeps = (0..).map(|_| (300, true));
+        assert_eq!(findings(sleeps), [long(20), long(80), (240, Finding::Sleeps)]);
+        // One that wakes up to sleep on sleeps too.
+        let naps = (0..).map(|n| (10 * n, true));
+        assert_eq!(findings(naps), [long(20), long(80), (240, Finding::Sleeps)]);
+    }
+
+    #[test]
+    fn one_that_gets_no_processor_is_told_and_not_ended() {
+        let starved = (0..2_000).map(|_| (300, false));
+        assert_eq!(findings(starved), [long(20), long(80), long(320), long(1280)]);
+        // Nor one that sleeps between its work.
+        let works = (0..400).map(|n| (300, n % 100 != 0));
+        assert_eq!(findings(works), [long(20), long(80), long(320)]);
+    }
+
+    #[test]
+    fn another_clock_is_another_stay() {
+        let mut stay = Stay::default();
+        for clock in 0..10_000 {
+            let seen = Activity { processor: Duration::from_millis(500 * clock), sleeps: true };
+            assert_eq!(stay.look(clock, seen, LIMITS), None);
+        }
+    }
 
     #[test]
     fn a_record_without_a_status_is_of_a_run_that_vanished() {

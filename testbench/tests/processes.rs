@@ -23,7 +23,7 @@ impl Place {
         let rtl = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("rtl");
         // Written by another program: no child of a test running beside this one may have a script open.
         place.shell(&format!("cp -r '{}' rtl && mkdir -p bin/root/include", rtl.display()));
-        place.shell("cd bin/root/include && touch verilated.cpp verilated_threads.cpp verilated_fst_c.cpp verilated_cov.cpp");
+        place.shell("cd bin/root/include && touch verilated.h verilated.cpp verilated_threads.cpp verilated_fst_c.cpp verilated_cov.cpp");
         place.shell("g++ -c -x c++ /dev/null -o bin/object");
         place.tool(
             "g++",
@@ -180,22 +180,42 @@ fn a_tool_that_does_not_say_its_version_is_told() {
 #[test]
 fn tools_that_say_too_much_or_nothing_are_told() {
     let place = Place::new();
+    let leaves =
+        "setsid sleep 1000 >/dev/null 2>&1 & echo $! > \"$(dirname \"$0\")/../pid\"; exit 3";
     for (script, expected, part) in [
         (
             "yes error",
             4,
             "verilator on sam_blend printed more than 258 MiB and was stopped; it began:\nerror",
         ),
-        ("exit 3", 2, "verilator failed on sam_blend:\nit printed nothing (exit status: 3)"),
+        (leaves, 2, "verilator failed on sam_blend:\nit printed nothing (exit status: 3)"),
         ("kill -9 $$", 2, "it printed nothing (signal: 9 (SIGKILL))"),
         ("exit 0", 2, "it ended well, but wrote no"),
     ] {
-        place.verilator(script);
-        let (status, said) = place.run("cosim blend --case random");
+        place.verilator(&format!("echo >> \"$(dirname \"$0\")/../calls\"\n{script}"));
+        let (status, said) = place.run("cosim blend --jobs 4");
         assert_eq!(status, Some(expected), "{script}: {said}");
         assert!(said.contains(part), "{script}: no “{part}” in: {said}");
         assert!(place.is_tidy(), "{script}: {:?}", parts(place.path()));
+        let calls = place.path().join("calls");
+        assert_eq!(
+            fs::read_to_string(&calls).expect("calls"),
+            "\n",
+            "{script}: it is not tried again"
+        );
+        fs::remove_file(calls).expect("removed");
     }
+    let pid = fs::read_to_string(place.path().join("pid")).expect("it was called");
+    assert!(soon(|| process(pid.trim()).is_none()), "what has left its group is left");
+    // No cause is made up for a compiler that fails.
+    place.shell("rm -r target");
+    place.tool(
+        "g++",
+        "case $1 in -dumpfullversion) echo 12.2.0;; *) echo out of order; exit 1;; esac",
+    );
+    let (status, said) = place.run("cosim blend --jobs 4");
+    assert_eq!(status, Some(3), "{said}");
+    assert!(said.contains("zlib.h /dev/null: out of order; install it again with"), "{said}");
 }
 
 #[test]
@@ -288,6 +308,10 @@ fn a_model_that_ends_crashes_or_hangs_does_not_pass() {
         $c("if (getenv(\"MODEL_EXITS\")) exit(0);");
         $c("if (getenv(\"MODEL_LEAVES\")) syscall(231, 0);");
         $c("if (getenv(\"MODEL_CRASHES\")) *static_cast<volatile int*>(nullptr) = 0;");
+        $c("if (getenv(\"MODEL_FORKS\")) fork();");
+        $c("if (getenv(\"MODEL_SLEEPS\")) sleep(1000);");
+        $c("if (getenv(\"MODEL_THROWS\")) throw 1;");
+        $c("if (getenv(\"MODEL_GROWS\")) for (int n = 0;; ++n) n < 100000 ? ::operator new(1ull << 28) : throw 1;");
         while ($c("getenv(\"MODEL_HANGS\") != nullptr")) wheel = !wheel;
     end
 endmodule"#;
@@ -296,28 +320,39 @@ endmodule"#;
     let line = "cosim blend --case random --beats 50 --waves never";
     assert_eq!(place.run(line).0, Some(0), "{}", place.run(line).1);
     let simulated = "while this was simulated: blend --case random";
-    for (variable, parts) in [
+    for (variable, expected, parts) in [
         (
             "MODEL_EXITS",
+            4,
             [
                 "the model calls exit(0)",
                 "(signal: 6 (SIGABRT)), while this was simulated: blend --case random",
             ],
         ),
-        ("MODEL_LEAVES", ["the run ended before its work was done (exit status: 0)", simulated]),
+        ("MODEL_FORKS", 4, ["the model calls fork()", simulated]),
+        (
+            "MODEL_SLEEPS",
+            4,
+            ["blend --case random: the model has been asleep for 3 s on one clock", "--timeout"],
+        ),
+        ("MODEL_THROWS", 1, ["MISMATCH blend random", "the model throws an exception"]),
+        ("MODEL_GROWS", 1, ["MISMATCH blend random", "an exception: std::bad_alloc"]),
+        ("MODEL_LEAVES", 4, ["the run ended before its work was done (exit status: 0)", simulated]),
         (
             "MODEL_CRASHES",
+            4,
             ["the run ended before its work was done (signal: 11 (SIGSEGV))", simulated],
         ),
         (
             "MODEL_HANGS",
-            ["blend --case random: the model did not come to the end of a clock", "within 5 s"],
+            4,
+            ["blend --case random: the model did not come to the end of a clock", "within 3 s"],
         ),
     ] {
         // It is built, so that the limit is that of the model alone.
-        let mut command = place.wheatstone(&format!("{line} --timeout 5"));
+        let mut command = place.wheatstone(&format!("{line} --timeout 3"));
         let (status, said) = told(command.env(variable, "1").output().expect("the program runs"));
-        assert_eq!(status, Some(4), "{variable}: {said}");
+        assert_eq!(status, Some(expected), "{variable}: {said}");
         for part in parts {
             assert!(said.contains(part), "{variable}: no “{part}” in: {said}");
         }
@@ -327,9 +362,12 @@ endmodule"#;
 #[test]
 fn what_is_too_large_or_no_file_is_told() {
     let place = Place::new();
-    for line in
-        ["vectors blend --out p --beats 4294967296", "replay blend --beats 18446744073709551615"]
-    {
+    for line in [
+        "vectors blend --out p --beats 4294967296",
+        "replay blend --beats 18446744073709551615",
+        "cosim blend --beats 18446744073709551615",
+        "cover blend --beats 18446744073709551615",
+    ] {
         let (status, said) = place.run(line);
         assert_eq!(status, Some(2), "{line}: {said}");
         assert!(said.contains("1000000"), "{line}: {said}");

@@ -47,6 +47,9 @@ fn wait(
     mut tell: impl FnMut(&str),
 ) -> io::Result<Lock> {
     fs::create_dir_all(super::parent(path))?;
+    if let Some(kind) = super::irregular(path) {
+        return Err(io::Error::other(format!("expected a lock file, found {kind}; delete it")));
+    }
     // Not truncated before it is ours: it says who has it.
     let mut file =
         OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
@@ -115,5 +118,9 @@ mod tests {
         assert_eq!(told, [expected]);
         drop(first);
         take(Duration::ZERO).unwrap();
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        let error = take(Duration::ZERO).unwrap_err().to_string();
+        assert!(error.ends_with("expected a lock file, found a folder; delete it"), "{error}");
     }
 }

@@ -14,7 +14,7 @@ mod write;
 
 pub use lock::{Lock, LockError};
 pub use publish::publish;
-pub use read::{read, read_own, ReadError, OWN_LIMIT};
+pub use read::{irregular, read, read_own, ReadError, OWN_LIMIT};
 pub use scratch::{Scratch, Tidy};
 pub use set::Set;
 pub use temporary::remove_temporary;

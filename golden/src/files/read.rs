@@ -1,7 +1,7 @@
 //! Reading what a stranger may have made.
 
 use crate::text::printable_path;
-use std::fs::{self, FileType, OpenOptions};
+use std::fs::{self, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
@@ -38,11 +38,11 @@ pub fn read(file: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
 
 fn bounded(file: &Path, limit: u64) -> io::Result<Vec<u8>> {
     // Before it is opened too: opening alone can make a device do something.
-    regular(fs::metadata(file)?.file_type())?;
+    regular(kind(&fs::metadata(file)?))?;
     let flags = rustix::fs::OFlags::NONBLOCK | rustix::fs::OFlags::NOCTTY;
     let opened = OpenOptions::new().read(true).custom_flags(flags.bits() as i32).open(file)?;
     let metadata = opened.metadata()?;
-    regular(metadata.file_type())?;
+    regular(kind(&metadata))?;
     let mut content = Vec::new();
     if metadata.len() <= limit {
         opened.take(limit.saturating_add(1)).read_to_end(&mut content)?;
@@ -54,10 +54,23 @@ fn bounded(file: &Path, limit: u64) -> io::Result<Vec<u8>> {
     Ok(content)
 }
 
-fn regular(kind: FileType) -> io::Result<()> {
-    let found = if kind.is_dir() { Some("a folder") } else { super::special(kind) };
-    found.map_or(Ok(()), |found| {
-        Err(io::Error::other(format!("expected a regular file, found {found}")))
+/// The kind of thing that a path leads to, if it leads to something that is no regular file: `a folder`,
+/// `a pipe (FIFO)`, `a socket` or `a device`.
+pub fn irregular(path: &Path) -> Option<&'static str> {
+    fs::metadata(path).ok().as_ref().and_then(kind)
+}
+
+fn kind(there: &Metadata) -> Option<&'static str> {
+    if there.is_dir() {
+        Some("a folder")
+    } else {
+        super::special(there.file_type())
+    }
+}
+
+fn regular(kind: Option<&str>) -> io::Result<()> {
+    kind.map_or(Ok(()), |kind| {
+        Err(io::Error::other(format!("expected a regular file, found {kind}")))
     })
 }
 

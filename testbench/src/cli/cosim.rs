@@ -58,6 +58,11 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let settings = args.common.settings()?;
     let targets = targets(args)?;
     let scenes = scene_names(args, &targets, &settings)?;
+    if args.stimulus.beats.is_some_and(|beats| beats > BEATS_LIMIT) {
+        return Err(Failure::Input(format!(
+            "--beats: a run has {BEATS_LIMIT} at most; for more, run again with another --seed"
+        )));
+    }
     // The command that repeats a case has the options of the run that it failed in.
     if args.case.is_none() {
         if scenes.is_empty() {

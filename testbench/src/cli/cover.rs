@@ -14,7 +14,7 @@ pub(super) struct CoverArgs {
     #[arg(value_name = "TARGET", value_parser = parse_target)]
     targets: Vec<Target>,
     /// Random beats of each target in each configuration
-    #[arg(long, default_value_t = cover::BEATS, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = cover::BEATS, value_parser = clap::value_parser!(u64).range(1..=BEATS_LIMIT))]
     beats: u64,
     /// Seed of random beats and stalls
     #[arg(long, default_value_t = 1)]

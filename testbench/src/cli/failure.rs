@@ -97,14 +97,21 @@ impl Failure {
             | Failure::Cover(CoverError::Regression(error))
             | Failure::Baseline(BaselineError::Regression(error))
             | Failure::Mutation(MutationError::Regression(error)) => match error {
-                RegressionError::Build(BuildError::Tool(_)) => MISSING_TOOL,
-                RegressionError::Build(BuildError::Process(error)) => of_process(error),
-                RegressionError::Build(BuildError::Lock(_)) => UNFINISHED,
+                RegressionError::Build(error) => of_build(error),
                 _ => BAD_INPUT,
             },
             Failure::Replay(ReplayError::Process(error)) => of_process(error),
             _ => BAD_INPUT,
         }
+    }
+}
+
+fn of_build(error: &BuildError) -> u8 {
+    match error {
+        BuildError::Tool(_) => MISSING_TOOL,
+        BuildError::Process(error) => of_process(error),
+        BuildError::Lock(_) => UNFINISHED,
+        _ => BAD_INPUT,
     }
 }
 

@@ -26,6 +26,7 @@ mod vectors;
 mod waves;
 mod words;
 
+use crate::regression::BEATS_LIMIT;
 use crate::settings::Settings;
 use crate::tools::Toolchain;
 use crate::verification::{self, Record};
@@ -56,8 +57,8 @@ use wheatstone_studies::volume::Volume;
 struct Cli {
     #[command(subcommand)]
     command: Command,
-    /// Stop a program that is called and has not ended after so many seconds, and a model that has used so
-    /// many of processor time for one clock [default: 3600, and 20]
+    /// Stop a program that is called and has not ended after so many seconds, and a model that on one clock
+    /// has used so many of processor time, or slept so many [default: 3600, 20 and 120]
     #[arg(long, global = true, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..))]
     timeout: Option<u32>,
 }

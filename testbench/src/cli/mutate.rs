@@ -23,7 +23,7 @@ pub(super) struct MutateArgs {
     #[arg(long, default_value_t = SEED)]
     seed: u64,
     /// Number of random beats of each target [default: as in the default regression]
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=BEATS_LIMIT))]
     beats: Option<u64>,
     /// Change the golden models of units instead, with cargo mutants, and run the units' own tests; none means
     /// all units

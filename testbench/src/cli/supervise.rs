@@ -4,7 +4,7 @@
 use super::UNFINISHED;
 use crate::watch::{self, RECORD_SIZE};
 use rustix::fs::{memfd_create, MemfdFlags};
-use rustix::process::{getpid, getppid, kill_process, set_child_subreaper, Pid, Signal};
+use rustix::process::{getppid, kill_process, Pid, Signal};
 use std::fs::File;
 use std::io::{self, IsTerminal};
 use std::os::fd::AsRawFd;
@@ -14,7 +14,7 @@ use std::process::{Command, ExitStatus};
 use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
-use wheatstone_process::{end_orphans, on_signal, signal_status};
+use wheatstone_process::{adopt_orphans, end_orphans, limit_memory, on_signal, signal_status};
 
 /// Names the record in which a child tells what it is at: a file without a name that the parent has open.
 const VARIABLE: &str = "WHEATSTONE_RECORD";
@@ -36,6 +36,9 @@ pub(super) fn is_child() -> bool {
         std::process::exit(UNFINISHED.into());
     }
     watch::record_to(file);
+    // Models are loaded here: what they start, and take of memory, is theirs alone to have.
+    adopt_orphans();
+    limit_memory();
     true
 }
 
@@ -59,7 +62,7 @@ pub(super) fn supervise() -> u8 {
 fn run() -> io::Result<u8> {
     let record = File::from(memfd_create("wheatstone", MemfdFlags::CLOEXEC)?);
     // What a child that was killed leaves behind comes to this process.
-    let _ = set_child_subreaper(Some(getpid()));
+    adopt_orphans();
     let (sender, events) = mpsc::channel();
     let signals = sender.clone();
     on_signal(move |signal| drop(signals.send(Event::Signal(signal))));

@@ -13,6 +13,8 @@ use wheatstone_process::Process;
 
 /// How long GTKWave must live to count as open.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// Bytes of what it says that are read.
+const SAID: u64 = 1 << 16;
 
 #[derive(Debug, Args)]
 pub(super) struct WavesArgs {
@@ -122,8 +124,9 @@ fn open(view: &Path) -> Result<(), Failure> {
     let status = Process::new(GTKWAVE.program, &mut command).launch(PATIENCE);
     let status = status.map_err(|error| Failure::Input(error.to_string()))?;
     let Some(status) = status else { return Ok(()) };
-    let mut text = String::new();
-    let _ = said.rewind().and_then(|()| said.read_to_string(&mut text));
+    let mut text = Vec::new();
+    let _ = said.rewind().and_then(|()| said.take(SAID).read_to_end(&mut text));
+    let text = String::from_utf8_lossy(&text);
     let why = match text.lines().map(str::trim).find(|line| !line.is_empty()) {
         None if status.success() => return Ok(()),
         None => status.to_string(),

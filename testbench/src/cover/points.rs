@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
-use wheatstone_golden::files::Scratch;
+use wheatstone_golden::files::{self, Scratch};
 
 /// Whether a line was run, or a bit changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -41,6 +41,9 @@ pub struct Point {
 /// Points with their counts.
 pub type Counts = BTreeMap<Point, u64>;
 
+/// Most bytes that a model writes of its counts.
+const LIMIT: u64 = 1 << 30;
+
 /// Adds up what models count.
 #[derive(Debug, Default)]
 pub struct Collector(Mutex<Collected>);
@@ -58,7 +61,8 @@ impl Collector {
             let folder = Scratch::new(&std::env::temp_dir())?;
             let file = folder.path().join("coverage");
             write(&file)?;
-            parse(&std::fs::read_to_string(&file)?)
+            let text = files::read(&file, LIMIT).map_err(|error| error.source)?;
+            parse(&String::from_utf8_lossy(&text))
         };
         let counted = read();
         let mut collected = self.0.lock().unwrap_or_else(PoisonError::into_inner);

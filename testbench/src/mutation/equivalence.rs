@@ -44,7 +44,8 @@ impl Netlist {
              setundef -zero -undriven -init; opt -full; techmap; opt -fast; dffunmap; \
              abc -g AND -fast; opt_clean; aigmap; write_aiger {file}"
         );
-        self.work.run(&YOSYS, self.work.command(&self.yosys).args(["-q", "-p", &script]))?;
+        let mut command = self.work.command(&self.yosys);
+        self.work.run(&YOSYS, command.args(["-q", "-p", &script]), &[&file])?;
         let proof = format!("read_aiger {file}; strash; lcorr; scorr; pdr; print_status");
         // Registers alone first: where those of both are the same, so are their multipliers.
         let mut command = self.work.command(&abc);

@@ -101,8 +101,10 @@ impl Netlist {
         );
         let folder = work.path().join(NETLIST);
         std::fs::create_dir(&folder).map_err(|source| WriteError { file: folder, source })?;
-        work.run(&YOSYS, work.command(&yosys).args(["-q", "-p", &script]))?;
-        let mutants = work.read("list")?.lines().filter_map(Mutant::parse).collect();
+        let made = format!("{NETLIST}/{module}.v");
+        let mut command = work.command(&yosys);
+        work.run(&YOSYS, command.args(["-q", "-p", &script]), &[DESIGN, &made])?;
+        let mutants = work.read(&YOSYS, "list")?.lines().filter_map(Mutant::parse).collect();
         let mut mutated = interface.clone();
         mutated.parameters.clear();
         mutated.statics.push(Field {

@@ -48,7 +48,7 @@ impl Prover {
             let (points, open) = if output.is_stopped {
                 (0, 0)
             } else if output.succeeded() {
-                let stat = folder.read("stat")?;
+                let stat = folder.read(&YOSYS, "stat")?;
                 points(&stat).ok_or_else(|| folder.failed(&YOSYS, &stat))?
             } else {
                 return Err(folder.failed(&YOSYS, &output.said()));

@@ -189,7 +189,7 @@ impl Record {
         }
         for (module, proofs) in modules {
             let path = workspace.join(format!("rtl/sam_{module}.v"));
-            let source = std::fs::read_to_string(path).unwrap_or_default();
+            let source = files::read_own(&path).unwrap_or_default();
             let seconds: Vec<String> = proofs.iter().map(|proved| told(proved)).collect();
             // Writing to a string cannot fail.
             let _ = writeln!(text, "\n### {module}\n\n{}.\n", seconds.join("; "));

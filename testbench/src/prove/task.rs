@@ -68,12 +68,12 @@ impl Task<'_> {
             "{commands}; {deleted}tee -q -o labels select -list t:$assert; write_ilang base.il"
         );
         let mut command = self.folder.command(&self.programs.yosys);
-        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))
+        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]), &["labels", "base.il"])
     }
 
     /// The labels of all assertions.
     pub fn labels(&self) -> Result<Vec<String>, FlowError> {
-        let text = self.folder.read("labels")?;
+        let text = self.folder.read(&YOSYS, "labels")?;
         let names = text.lines().filter_map(|line| line.trim().split_once('/'));
         Ok(names.map(|(_, name)| name.to_owned()).collect())
     }
@@ -210,7 +210,7 @@ impl Task<'_> {
             self.module
         );
         let mut command = self.folder.command(&self.programs.yosys);
-        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
+        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]), &["miter.aig"])?;
         let proof = "read_aiger miter.aig; strash; comb; fraig; iprove; print_status";
         let mut command = self.folder.command(&self.programs.abc);
         let output = self.limited(&YOSYS_ABC, command.args(["-c", proof]))?;
@@ -235,7 +235,7 @@ impl Task<'_> {
         let deleted = self.delete(left_out);
         let script = format!("read_ilang base.il; {deleted}write_smt2 -wires model.smt2");
         let mut command = self.folder.command(&self.programs.yosys);
-        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]))?;
+        self.folder.run(&YOSYS, command.args(["-q", "-p", &script]), &["model.smt2"])?;
         let mut command = self.folder.command(&self.programs.smtbmc);
         command.env("PATH", &self.programs.path);
         command.args(["-s", "yices"]).args(mode).args(["-t", &clocks.to_string(), "model.smt2"]);

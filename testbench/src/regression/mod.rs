@@ -4,11 +4,14 @@
 //! come in batches; batch n of seed s is batch 0 of seed s + n, with stall patterns chosen by the same
 //! number, so that one failing batch can be repeated by itself.
 
+mod error;
 mod failure;
+mod models;
 mod report;
 mod run;
 mod waves;
 
+pub use error::RegressionError;
 pub(crate) use failure::command_line;
 pub use failure::{Failure, Location};
 pub(crate) use report::counted;
@@ -19,20 +22,23 @@ pub use waves::{record_waves, scene_head, Focus, Head, Waves as WaveFile};
 use crate::cases::{self, Case};
 use crate::settings::Settings;
 use crate::watch;
-use crate::{BuildError, Builder, JobError, Library, LoadError, Pattern, Spec, Stalls, TraceError};
+use crate::{Builder, Library, Pattern, Stalls};
 use failure::Attempt;
+use models::Models;
 use rayon::prelude::*;
+use std::cell::RefCell;
 use std::path::PathBuf;
-use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
-use thiserror::Error;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::Frames;
 use wheatstone_golden::primary::Counts as Drawn;
 use wheatstone_golden::stereo::Job as Scene;
 use wheatstone_golden::targets::Target;
+use wheatstone_process::Patience;
 
+/// Most random beats of a target in one run: some hours.
+pub const BEATS_LIMIT: u64 = 1_000_000_000;
 /// Random beats of a unit in the default regression.
 pub const UNIT_BEATS: u64 = 1_000_000;
 /// Random beats of a system in the default regression.
@@ -47,37 +53,6 @@ const RANDOM: &str = "random";
 const HEAD: u64 = 2_000;
 /// Latency of the memory when throughput is measured, in clocks.
 pub const MEASURED_LATENCY: u64 = 4;
-
-/// The regression could not run.
-#[derive(Debug, Error)]
-pub enum RegressionError {
-    /// A model could not be built.
-    #[error(transparent)]
-    Build(#[from] BuildError),
-    /// A model could not be loaded.
-    #[error(transparent)]
-    Load(#[from] LoadError),
-    /// A case does not fit its model.
-    #[error(transparent)]
-    Job(#[from] JobError),
-    /// A waveform could not be written.
-    #[error(transparent)]
-    Trace(#[from] TraceError),
-    /// The view of a waveform could not be written.
-    #[error(transparent)]
-    Wave(#[from] crate::waves::WaveError),
-    /// A file could not be written.
-    #[error("{path}: {source}")]
-    File {
-        /// Which one.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// The worker threads could not be started.
-    #[error("cannot start worker threads: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
-}
 
 /// When waveforms are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -202,45 +177,13 @@ struct Ground<'a> {
     target: Target,
 }
 
-/// Models of the targets, built when first needed.
-struct Models<'a> {
-    builder: &'a Builder,
-    plan: &'a Plan<'a>,
-    libraries: Vec<(Target, OnceLock<Library>, Mutex<()>)>,
-}
-
-impl Models<'_> {
-    fn get(&self, target: Target) -> Result<Library, BuildError> {
-        let config = &self.plan.settings.config;
-        let build = || {
-            let probes = model_probes(target, config);
-            let interface = target.interface(config);
-            self.builder.build(&Spec {
-                interface: &interface,
-                rtl: &self.plan.rtl,
-                probes: &probes,
-            })
-        };
-        let Some((_, cell, lock)) = self.libraries.iter().find(|(t, ..)| *t == target) else {
-            return build();
-        };
-        let _guard = lock.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        if let Some(library) = cell.get() {
-            return Ok(library.clone());
-        }
-        let library = build()?;
-        Ok(cell.get_or_init(|| library).clone())
-    }
-}
-
 /// Runs a plan; entries come in the order of the targets.
 pub fn run(
     plan: &Plan,
     builder: &Builder,
     tell: &(dyn Fn(Event) + Sync),
 ) -> Result<Vec<Entry>, RegressionError> {
-    let libraries = plan.targets.iter().map(|&t| (t, OnceLock::new(), Mutex::new(()))).collect();
-    let models = Models { builder, plan, libraries };
+    let models = Models::new(builder, plan);
     let work = list_work(plan);
     tell(Event::Planned(work.len()));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(plan.jobs).build()?;
@@ -421,6 +364,15 @@ fn directed(ground: &Ground, case: &Case) -> Result<Entry, RegressionError> {
     Ok(entry)
 }
 
+/// Random beats of a target in the default regression.
+fn default_beats(target: Target) -> u64 {
+    if target.is_system() {
+        SYSTEM_BEATS
+    } else {
+        UNIT_BEATS
+    }
+}
+
 /// A batch of random beats.
 pub(crate) struct Batch {
     /// Its seed, which also chooses the stalls.
@@ -438,9 +390,8 @@ pub(crate) fn batches(
     seed: u64,
     beats: Option<u64>,
 ) -> impl Iterator<Item = Batch> {
-    let (default, batch) =
-        if target.is_system() { (SYSTEM_BEATS, SYSTEM_BATCH) } else { (UNIT_BEATS, BATCH) };
-    let (mut left, mut seed, config) = (beats.unwrap_or(default), seed, *config);
+    let batch = if target.is_system() { SYSTEM_BATCH } else { BATCH };
+    let (mut left, mut seed, config) = (beats.unwrap_or(default_beats(target)), seed, *config);
     std::iter::from_fn(move || {
         let size = Some(batch.min(left)).filter(|size| *size > 0)?;
         let case = cases::random(target, &config, seed, size as usize);
@@ -454,6 +405,7 @@ pub(crate) fn batches(
 fn random(ground: &Ground) -> Result<Entry, RegressionError> {
     let (plan, target) = (ground.plan, ground.target);
     let mut entry = Entry::new(target, RANDOM);
+    let mut patience = Patience::new();
     for Batch { seed, size, case } in batches(target, &plan.settings.config, plan.seed, plan.beats)
     {
         let setting = ground.setting(seed, Stalls::of_seed(seed));
@@ -461,6 +413,9 @@ fn random(ground: &Ground) -> Result<Entry, RegressionError> {
         if !entry.passed() {
             break;
         }
+        let asked = plan.beats.unwrap_or(default_beats(target));
+        patience
+            .tell(|| format!("{} random: {} of {asked} beats so far", target.name(), entry.beats));
     }
     Ok(entry)
 }
@@ -479,7 +434,13 @@ fn draw(ground: &Ground, scene: &NamedScene) -> Result<Entry, RegressionError> {
     let latency = plan.settings.latency;
     for (stalls, latency) in [(Stalls::NONE, steady), (stalled, latency), (full, latency)] {
         let setting = Setting { latency, ..ground.setting(plan.seed, stalls) };
-        let run = |setting: &Setting| run_scene(setting, target, &scene.job, |_| ());
+        let patience = RefCell::new(Patience::new());
+        let told = |drawn| {
+            let (target, all) = (target.name(), scene.job.polygons.len());
+            let text = || format!("{target} {}: {drawn} of {all} polygons so far", scene.name);
+            patience.borrow_mut().tell(text);
+        };
+        let run = |setting: &Setting| run_scene(setting, target, &scene.job, told);
         let SceneRan { ran, drawn, frames, simulation } = run(&setting)?;
         entry.add(&ran, drawn.beats(), simulation);
         if !ran.passed() {

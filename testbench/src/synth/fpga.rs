@@ -71,14 +71,16 @@ pub(super) fn measure(design: &Design<'_>, chip: &Chip) -> Result<Figures, Synth
     design.cached(&inputs.map(|text| text.as_bytes()), |folder| {
         folder.write(PINS, chip.pins.as_bytes())?;
         folder.write("harness.v", harness.as_bytes())?;
-        folder.run(chip.yosys, folder.command(&yosys).args(["-q", "-l", "log", "-p", &script]))?;
-        let mut figures = cells(&folder.read("stat")?, chip);
+        let mut command = folder.command(&yosys);
+        command.args(["-q", "-l", "log", "-p", &script]);
+        folder.run(chip.yosys, &mut command, &["netlist.json"])?;
+        let mut figures = cells(&folder.read(chip.yosys, "stat")?, chip);
         let mut clocks = Vec::new();
         for seed in SEEDS {
             let mut command = folder.command(&nextpnr);
             command.args(chip.arguments).args(["--json", "netlist.json", "--timing-allow-fail"]);
             command.args(["--seed", &seed.to_string(), "--report", "report.json", "-q"]);
-            match folder.run(chip.nextpnr, &mut command) {
+            match folder.run(chip.nextpnr, &mut command, &[]) {
                 Ok(()) => clocks.push(clock(folder, chip.nextpnr)?),
                 // As large as it is, it has no clock on this chip.
                 Err(SynthError::Failed { lines, .. }) if is_too_large(&lines) => {
@@ -177,7 +179,7 @@ fn count_name(line: &str) -> &str {
 
 /// The clock in a report of nextpnr, in MHz.
 fn clock(folder: &Folder, tool: &'static Tool) -> Result<f64, SynthError> {
-    let text = folder.read("report.json")?;
+    let text = folder.read(tool, "report.json")?;
     let report: Option<Value> = serde_json::from_str(&text).ok();
     let clocks = report.as_ref().and_then(|report| report["fmax"].as_object());
     let clock = clocks.and_then(|clocks| clocks.values().next()?["achieved"].as_f64());

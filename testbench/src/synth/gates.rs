@@ -43,7 +43,7 @@ pub(super) fn measure(design: &Design<'_>) -> Result<Figures, SynthError> {
         for (library, text) in LIBRARIES.iter().zip(texts) {
             folder.write(library.file, text.as_bytes())?;
         }
-        folder.run(&YOSYS, folder.command(&yosys).args(["-q", "-p", &script]))?;
+        folder.run(&YOSYS, folder.command(&yosys).args(["-q", "-p", &script]), &[])?;
         let figures = LIBRARIES.iter().zip(texts).map(|(library, text)| {
             let gates = gates(folder, library, text)?;
             Ok((library.figure, gates.round()))
@@ -67,7 +67,7 @@ fn script(design: &Design<'_>) -> String {
 
 /// The gates that Yosys counted in a library.
 fn gates(folder: &Folder, library: &Library, text: &str) -> Result<f64, SynthError> {
-    let stat = folder.read(&format!("{}.stat", library.file))?;
+    let stat = folder.read(&YOSYS, &format!("{}.stat", library.file))?;
     // A cell that the library does not have would count nothing.
     let known = !stat.contains("is unknown");
     let area = stat.lines().find_map(|line| line.trim().strip_prefix("Chip area for module"));

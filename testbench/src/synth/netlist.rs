@@ -37,7 +37,7 @@ pub(super) fn make(design: &Design<'_>, cells: Cells) -> Result<String, SynthErr
     );
     design.cached(&[yosys.text.as_bytes(), script.as_bytes(), &library], |folder| {
         folder.write("cells.lib", &library)?;
-        folder.run(&YOSYS, folder.command(&yosys).args(["-q", "-p", &script]))?;
-        folder.read("netlist.v")
+        folder.run(&YOSYS, folder.command(&yosys).args(["-q", "-p", &script]), &[])?;
+        folder.read(&YOSYS, "netlist.v")
     })
 }

@@ -31,7 +31,9 @@ impl Builder {
         let sources = RUNTIME.map(|name| format!("{name}.cpp"));
         for name in sources.iter().map(String::as_str).chain(["verilated.h"]) {
             let path = self.tools.include.join(name);
-            hash.update(&fs::read(&path).map_err(|source| BuildError::Source { path, source })?);
+            let content = files::read(&path, files::OWN_LIMIT)
+                .map_err(|e| BuildError::Source { path: e.file, source: e.source })?;
+            hash.update(&content);
         }
         let key = short(&hash);
         let folder = self.cache.join(format!("runtime-{key}"));
@@ -43,7 +45,7 @@ impl Builder {
         if is_sound() {
             return Ok(Runtime(folder));
         }
-        if folder.exists() {
+        if is_folder(&folder)? {
             (self.progress)(Progress::Damaged("Verilator's runtime"));
         }
         self.tools.check_zlib()?;

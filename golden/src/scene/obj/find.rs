@@ -3,7 +3,7 @@
 //! A name is relative to the folder of the file that it stands in. Quotes are dropped, backslashes
 //! separate as slashes do, or keep a blank. What is not there under its whole path, such as `C:\me\tex\a.png`, is
 //! looked for under the path's last parts in that folder, the longest first, then in any case of
-//! letters. Only regular files count.
+//! letters. Folders do not count; a pipe or a device does, and is refused by who reads it.
 
 use super::statement::without_comment;
 use std::collections::HashMap;
@@ -34,12 +34,12 @@ impl Finder {
 
     fn named(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
         let whole = folder.join(name);
-        if name.is_empty() || whole.is_file() {
+        if name.is_empty() || is_there(&whole) {
             return Some(whole).filter(|_| !name.is_empty());
         }
         let name = name.replace('\\', "/");
         let whole = folder.join(&name);
-        if whole.is_file() {
+        if is_there(&whole) {
             return Some(whole);
         }
         // `C:` and what it leads to.
@@ -59,7 +59,7 @@ impl Finder {
     /// The file that a path of these parts leads to from a folder.
     fn in_any_case(&mut self, folder: &Path, parts: &[String]) -> Option<PathBuf> {
         let exact = parts.iter().fold(folder.to_owned(), |path, part| path.join(part));
-        if exact.is_file() {
+        if is_there(&exact) {
             return Some(exact);
         }
         let mut path = folder.to_owned();
@@ -67,8 +67,13 @@ impl Finder {
             let names = self.folders.entry(path.clone()).or_insert_with_key(|path| listed(path));
             path.push(names.get(&part.to_lowercase())?);
         }
-        path.is_file().then_some(path)
+        is_there(&path).then_some(path)
     }
+}
+
+/// Whether a path leads to anything but a folder; its reader refuses what is no file.
+fn is_there(path: &Path) -> bool {
+    path.metadata().is_ok_and(|there| !there.is_dir())
 }
 
 /// Names in a folder by their small letters; none if it cannot be read.
@@ -120,6 +125,8 @@ mod tests {
         for name in ["a b.png", "t#1.png", "Tex/Wood.JPG", "Tex/deep/x.png"] {
             fs::write(folder.join(name), "").expect("written");
         }
+        let pipe = std::process::Command::new("mkfifo").arg(folder.join("pipe.mtl")).status();
+        assert!(pipe.is_ok_and(|status| status.success()));
         let mut finder = Finder::default();
         let mut found = |name: &str| {
             let path = finder.find(folder, name)?;
@@ -140,6 +147,8 @@ mod tests {
             ("/home/me/Tex/deep/x.png", "Tex/deep/x.png"),
             ("..\\textures\\a b.png", "a b.png"),
             ("./Tex/../a b.png", "Tex/../a b.png"),
+            // Its reader says what it is.
+            ("Pipe.mtl", "pipe.mtl"),
             (&outside, "a b.png"),
         ];
         for (name, expected) in cases {
