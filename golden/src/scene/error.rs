@@ -1,7 +1,6 @@
 //! What can be wrong with a scene, and where.
 
 use super::locate::Locator;
-use super::wires::LINE_LIMIT;
 use crate::files::{self, ReadError};
 use crate::text::{self, printable, printable_path, TextError};
 use std::fmt;
@@ -15,6 +14,8 @@ pub const SIZE_LIMIT: u32 = 2048;
 pub const ID_LIMIT: usize = (1 << 24) - 1;
 /// Most corners of polygons and points of lines in a file, so that what is made of them has room in 2 GB.
 pub const CORNER_LIMIT: usize = 1 << 23;
+/// Most lines of a file or a wire frame: one takes a kilobyte.
+pub const LINE_LIMIT: usize = 1 << 20;
 /// Largest file of a scene, in bytes: some ten times what the largest mesh takes that is drawn in
 /// reasonable time.
 pub const FILE_LIMIT: u64 = 256 << 20;

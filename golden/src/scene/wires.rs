@@ -6,7 +6,7 @@
 //! every row or column that it passes, for both eyes. Where it is upright for one eye and flat
 //! for the other, it is made thick enough to have no gaps in either view, up to [`THICKEST`].
 
-use super::error::SceneError;
+use super::error::{SceneError, LINE_LIMIT};
 use super::mesh::{Colours, Mesh};
 use super::shading::Shading;
 use super::vector::{extent, mix, Vec3};
@@ -14,9 +14,6 @@ use super::{Camera, Lens, Material, Scene};
 use crate::config::Config;
 use crate::formats::{Eye, Formats};
 use std::collections::HashMap;
-
-/// Most lines of a scene: one takes as much memory as a thousand characters.
-pub const LINE_LIMIT: usize = 1 << 20;
 
 /// Greatest thickness of a line, in pixels.
 pub const THICKEST: f64 = 2.0;

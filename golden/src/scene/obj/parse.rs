@@ -1,10 +1,9 @@
 //! Reads the statements of an OBJ file.
 
 use super::super::cut::Crossing;
-use super::super::error::{InputError, SceneError, COORDINATE_LIMIT, CORNER_LIMIT};
+use super::super::error::{InputError, SceneError, COORDINATE_LIMIT, CORNER_LIMIT, LINE_LIMIT};
 use super::super::vector::{unit, Vec3};
 use super::super::warning::Warnings;
-use super::super::wires::LINE_LIMIT;
 use super::statement::{each, is_one_of, Statement};
 use std::collections::HashMap;
 use std::path::Path;
