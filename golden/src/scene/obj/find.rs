@@ -87,7 +87,7 @@ fn listed(folder: &Path) -> HashMap<String, OsString> {
 }
 
 /// A name without the quotes round it.
-fn unquoted(name: &str) -> &str {
+pub fn unquoted(name: &str) -> &str {
     let name = name.trim();
     let within = |quote| name.strip_prefix(quote)?.strip_suffix(quote);
     within('"').or_else(|| within('\'')).unwrap_or(name).trim()

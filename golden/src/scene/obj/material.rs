@@ -4,7 +4,7 @@ use super::super::error::{no_text, read};
 use super::super::vector::{scale, Vec3};
 use super::super::warning::Warnings;
 use super::super::Material;
-use super::find::{library_names, Finder};
+use super::find::{library_names, unquoted, Finder};
 use super::parse::Name;
 use super::picture::Pictures;
 use super::statement::{each, is_one_of, number, without_comment, Statement};
@@ -120,28 +120,39 @@ impl Library {
             decode_with_latin1(&bytes).map_err(|error| unread(no_text(file, error).to_string()))?;
         // Index of the material that statements belong to.
         let mut current = None;
+        // The first statement before any material, and how many there are.
+        let (mut early, mut count) = (None, 0);
         let taken: Result<(), Infallible> = each(file, &text, |statement| {
             if statement.keyword == "newmtl" {
                 current = Some(self.definitions.len());
                 self.definitions.push(Definition { library: file.into(), ..Definition::default() });
-                if self.names.contains_key(statement.rest) {
+                let name = unquoted(statement.rest);
+                if self.names.contains_key(name) {
                     statement.warn(warnings, "the material is there already; the first counts");
                 } else {
-                    self.names.insert(statement.rest.into(), self.definitions.len() - 1);
+                    self.names.insert(name.into(), self.definitions.len() - 1);
                 }
             } else if let Some(current) = current {
                 self.definitions[current].statement(statement, warnings);
             } else {
-                statement.warn(warnings, "newmtl comes first; left out");
+                early.get_or_insert_with(|| (statement.line, statement.text.to_owned()));
+                count += 1;
             }
             Ok(())
         });
         let Ok(()) = taken;
+        let Some((line, text)) = early else { return Ok(()) };
+        if current.is_none() {
+            let what = "no library of materials, as it has no newmtl; drawn light grey";
+            return Err((what, format!("{count} other statements")));
+        }
+        let more = if count > 1 { format!("as {} more", count - 1) } else { String::new() };
+        warnings.add(file, line, &text, "newmtl comes first; left out", &more);
         Ok(())
     }
 
     fn named(&self, name: &str) -> Option<usize> {
-        let name = [name, without_comment(name)];
+        let name = [name, without_comment(name)].map(unquoted);
         name.iter().find_map(|name| self.names.get(*name)).copied()
     }
 

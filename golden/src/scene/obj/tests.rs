@@ -100,6 +100,29 @@ fn names_are_resolved_at_the_end_and_in_any_encoding() {
 }
 
 #[test]
+fn names_may_have_quotes_on_either_side() {
+    let text = format!("mtllib m.mtl\n{SQUARE}usemtl \"a\"\nf 1 2 3\nusemtl b c\nf 1 3 4\n");
+    let library = b"newmtl a\nKd 1 0 0\nnewmtl 'b c'\nKd 0 1 0\n";
+    let (scene, warnings) = loaded(&[("m.obj", text.as_bytes()), ("m.mtl", library)]);
+    assert_eq!(warnings, [""; 0]);
+    let diffuse = |k: usize| scene.materials[scene.meshes[k].material as usize].diffuse;
+    assert_eq!((diffuse(0), diffuse(1)), ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
+}
+
+#[test]
+fn a_library_that_is_none_is_one_warning() {
+    let text = format!("mtllib notes.txt\n{SQUARE}usemtl m\nf 1 2 3\n");
+    let told =
+        |notes: &str| loaded(&[("m.obj", text.as_bytes()), ("notes.txt", notes.as_bytes())]).1;
+    let lines = told(&"some words\n".repeat(50));
+    let expected = "m.obj:1: mtllib notes.txt: no library of materials, as it has no newmtl; drawn light grey \
+                    (50 other statements)";
+    assert_eq!(lines, [expected]);
+    let lines = told(&("some words\n".repeat(50) + "newmtl m\n"));
+    assert_eq!(lines, ["notes.txt:1: some words: newmtl comes first; left out (as 49 more)"]);
+}
+
+#[test]
 fn texture_points_that_cannot_be_used_leave_the_face_without_texture() {
     let (name, bytes) = picture("t.bmp");
     for (point, told) in [("vt 5000 0", "m.obj:12: f: more than 1024"), ("vt nan", "m.obj:10: vt")]
