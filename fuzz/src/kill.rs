@@ -3,12 +3,14 @@
 //! `strace` kills. A run is first counted, then made again once for each call, and killed there. Afterwards its output must
 //! be whole, the old one or the new one or none, and the next run must work and give what an undisturbed one gives.
 
+use crate::program::run;
 use fastrand::Rng;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
+use wheatstone_process::Output;
 
 /// Calls that change files or folders; those with `?` are not on every machine.
 const CALLS: &str = "openat,?creat,write,pwrite64,writev,?truncate,ftruncate,?rename,?renameat,renameat2,?link,linkat,\
@@ -51,6 +53,9 @@ const PACK: &str = "vectors sampler --seed 1 --beats 30 --out packs";
 const PICTURES: &str =
     "render --scene ramp --size 48x32 --method direct --stereo anaglyph,wiggle --out pictures";
 
+const PROGRAM: &str = "wheatstone";
+const STRACE: &str = "strace";
+
 /// A place to be killed at: a call, and the how manieth of a thread.
 type Point = (String, u32);
 
@@ -74,7 +79,7 @@ impl Killer {
     pub fn run(&self, case: &Case, children: usize, seed: u64) -> io::Result<(Vec<String>, usize)> {
         let whole = self.folder(case)?;
         let old = self.tree(case, whole.path())?;
-        let output = self.command(case.line, whole.path()).output()?;
+        let output = run(PROGRAM, &mut self.command(case.line, whole.path()))?;
         if !output.status.success() {
             return Err(io::Error::other(format!(
                 "{} fails undisturbed: {}",
@@ -109,7 +114,7 @@ impl Killer {
     fn folder(&self, case: &Case) -> io::Result<tempfile::TempDir> {
         let folder = tempfile::tempdir()?;
         std::os::unix::fs::symlink(self.workspace.join("rtl"), folder.path().join("rtl"))?;
-        let before = case.before.map(|line| self.command(line, folder.path()).output());
+        let before = case.before.map(|line| run(PROGRAM, &mut self.command(line, folder.path())));
         match before.transpose()? {
             Some(output) if !output.status.success() => Err(io::Error::other(said(&output))),
             _ => Ok(folder),
@@ -131,7 +136,12 @@ impl Killer {
     }
 
     /// Puts the compiler where [`Killer::at_home`] looks for it.
+    ///
+    /// # Errors
+    /// Also where strace is missing.
     pub fn prepare(&self) -> io::Result<()> {
+        run(STRACE, Command::new(STRACE).arg("--version"))
+            .map_err(|error| io::Error::other(format!("{error}; run scripts/setup strace")))?;
         let bin = self.scratch.join("bin");
         fs::create_dir_all(&bin)?;
         let text = "#!/bin/sh\nout=; last=\nfor word; do [ \"$last\" = -o ] && out=$word; last=$word; done\n\
@@ -168,7 +178,7 @@ impl Killer {
         let trace = format!("trace={CALLS}");
         let file = log.to_string_lossy();
         let options = [options, &["-e", &trace, "-o", &file]].concat();
-        let output = self.strace(case, &options, folder.path()).output()?;
+        let output = run(STRACE, &mut self.strace(case, &options, folder.path()))?;
         if !output.status.success() {
             return Err(io::Error::other(format!("strace: {}", said(&output))));
         }
@@ -187,7 +197,7 @@ impl Killer {
         let [trace, inject] =
             [format!("trace={call}"), format!("inject={call}:signal=KILL:when={number}")];
         let options = [options, &["-o", "/dev/null", "-e", &trace, "-e", &inject]].concat();
-        let killed = self.strace(case, &options, folder.path()).output()?;
+        let killed = run(STRACE, &mut self.strace(case, &options, folder.path()))?;
         let left = self.tree(case, folder.path())?;
         if left != *old && left != *new {
             return Ok(Some(format!("neither the old output nor the new one: {}", names(&left))));
@@ -195,7 +205,7 @@ impl Killer {
         if killed.status.success() && left != *new {
             return Ok(Some("it passed without its output".into()));
         }
-        let again = self.command(case.line, folder.path()).output()?;
+        let again = run(PROGRAM, &mut self.command(case.line, folder.path()))?;
         if !again.status.success() {
             return Ok(Some(format!("the next run fails: {}", said(&again))));
         }
@@ -235,8 +245,7 @@ fn names(tree: &Tree) -> String {
 }
 
 fn said(output: &Output) -> String {
-    let text = [&output.stdout[..], &output.stderr].concat();
-    String::from_utf8_lossy(&text).lines().take(6).collect::<Vec<_>>().join("\n")
+    output.said().lines().take(6).collect::<Vec<_>>().join("\n")
 }
 
 /// The places in a log: how often each thread makes a call. Files that are opened for reading do not count as such,

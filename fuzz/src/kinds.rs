@@ -1,5 +1,7 @@
 //! What is damaged: files of every kind that the program reads, each with the command that reads it.
 
+use crate::program::run;
+use std::fs;
 use std::io::{self, Cursor};
 use std::path::Path;
 use std::process::Command;
@@ -83,11 +85,12 @@ pub fn all(program: &Path, workspace: &Path, folder: &Path) -> io::Result<Vec<Ki
 }
 
 /// Command lines that are damaged.
-const OPTIONS: [&str; 5] = [
+const OPTIONS: [&str; 6] = [
     "render --scene s.obj --rig r.json --size 24x16 --method direct --stereo anaglyph,wiggle --dpi 100 --out out",
     "render --scene s.obj --config paper --param filter=2 --cull back --wire --projection shear --out out",
     "rig --scene s.obj --rig r.json --at 1,2.5 --projection piecewise --json out.json",
     "vectors filter --seed 3 --beats 5 --config paper --param filter=3 --out out",
+    "compare --scene s.obj --size 24x16 --wire --param sampling=average --out out --json out.json",
     "list --json",
 ];
 
@@ -135,35 +138,48 @@ fn encoded(format: image::ImageFormat) -> io::Result<Vec<u8>> {
     Ok(bytes.into_inner())
 }
 
-/// A pack as the program writes it: its manifest, and its other files.
-fn packs(program: &Path, folder: &Path) -> io::Result<[Kind; 2]> {
-    let mut command = Command::new(program);
-    command.args(["vectors", "sampler", "--beats", "8", "--out", "packs"]).current_dir(folder);
-    let output = command.output()?;
-    if !output.status.success() {
-        return Err(io::Error::other(String::from_utf8_lossy(&output.stderr).into_owned()));
+/// Packs that are damaged: of random beats, and of a scene, whose manifest has every field.
+const PACKS: [&str; 2] =
+    ["vectors sampler --beats 8 --out", "vectors hybrid --scene ramp --beats 8 --out"];
+
+/// Packs as the program writes them: their manifests, and their other files.
+fn packs(program: &Path, folder: &Path) -> io::Result<Vec<Kind>> {
+    let mut all = Vec::new();
+    for (n, line) in PACKS.into_iter().enumerate() {
+        let out = folder.join(n.to_string());
+        let output = run("wheatstone", Command::new(program).args(line.split(' ')).arg(&out))?;
+        if !output.succeeded() {
+            return Err(io::Error::other(output.said()));
+        }
+        let mut files = Vec::new();
+        for pack in fs::read_dir(&out)? {
+            for entry in fs::read_dir(pack?.path())? {
+                let path = entry?.path();
+                let name = path.strip_prefix(&out).unwrap_or(&path).to_string_lossy();
+                files.push((format!("packs/{name}"), fs::read(&path)?));
+            }
+        }
+        files.sort();
+        all.push(files);
     }
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder.join("packs/sampler"))? {
-        let entry = entry?;
-        let name = format!("packs/sampler/{}", entry.file_name().to_string_lossy());
-        files.push((name, std::fs::read(entry.path())?));
-    }
-    files.sort();
-    let pack = |name, damaged| Kind {
-        name,
-        files: files.clone(),
-        damaged: Some(damaged),
-        line: "check packs",
+    let kinds = [("manifest", "manifest.json"), ("pack", "")].into_iter();
+    let of = |(name, damaged)| {
+        let kind = move |files: &Vec<_>| Kind {
+            name,
+            files: files.clone(),
+            damaged: Some(damaged),
+            line: "check packs",
+        };
+        all.iter().map(kind).collect::<Vec<_>>()
     };
-    Ok([pack("manifest", "manifest.json"), pack("pack", "")])
+    Ok(kinds.flat_map(of).collect())
 }
 
 /// The Verilog of a unit: what Verilator makes of its ports is compared with what they should be.
 fn verilog(workspace: &Path) -> io::Result<Kind> {
     let mut files = Vec::new();
     for name in ["sam_sampler.v", "sam_formats.vh", "sam_formal.vh"] {
-        files.push((format!("v/{name}"), std::fs::read(workspace.join("rtl").join(name))?));
+        files.push((format!("v/{name}"), fs::read(workspace.join("rtl").join(name))?));
     }
     let line = "cosim sampler --beats 20 --rtl v";
     Ok(Kind { name: VERILOG, files, damaged: Some("sampler.v"), line })

@@ -8,24 +8,23 @@ mod judge;
 pub mod kill;
 pub mod kinds;
 mod mutate;
+pub mod program;
 
 pub use kinds::Kind;
 pub use mutate::mutate;
 
 use fastrand::Rng;
+use program::PATIENCE;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
 use wheatstone_process::Process;
 
 /// Processor time that an input may take, in seconds.
 const SECONDS: u32 = 20;
-/// Time on the clock after which an input counts as one that waits for something that never comes.
-const PATIENCE: Duration = Duration::from_secs(600);
 /// Memory that the program may have, in kB: the address space.
 const KILOBYTES: u32 = 2 << 20;
 

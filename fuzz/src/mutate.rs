@@ -121,9 +121,20 @@ pub(crate) fn mutate_line(line: &str, rng: &mut Rng) -> Vec<Vec<u8>> {
             _ => words.insert(at, odd(rng).to_vec()),
         }
     }
-    // No argument can have a zero byte.
-    words.iter_mut().for_each(|word| word.retain(|byte| *byte != 0));
+    words.iter_mut().for_each(tame);
     words
+}
+
+/// Makes an argument of a word: it has no zero byte, and names nothing outside of the folder, where the program
+/// might write, but for devices.
+fn tame(word: &mut Vec<u8>) {
+    word.retain(|byte| *byte != 0);
+    if !word.starts_with(b"/dev/") || !ODD.contains(&&word[..]) {
+        word.retain(|byte| *byte != b'/');
+        while word.ends_with(b"..") {
+            word.pop();
+        }
+    }
 }
 
 fn odd(rng: &mut Rng) -> &'static [u8] {
@@ -158,5 +169,11 @@ mod tests {
         (0..200).for_each(|seed| drop(mutate(b"", b"", &mut Rng::with_seed(seed))));
         let line = |seed| mutate_line("list", &mut Rng::with_seed(seed));
         assert!((0..200).all(|seed| line(seed)[0] == b"list"));
+        for seed in 0..2000 {
+            for word in mutate_line("rig --json out --out=out", &mut Rng::with_seed(seed)) {
+                let leads_out = word.ends_with(b"..") || word.contains(&b'/');
+                assert!(!leads_out || word.starts_with(b"/dev/"), "{word:?}");
+            }
+        }
     }
 }

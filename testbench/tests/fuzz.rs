@@ -4,7 +4,9 @@ use std::fmt::Display;
 use std::fs;
 use std::path::{Path, PathBuf};
 use wheatstone_fuzz::{kinds, mutate, Kind, Plan};
+use wheatstone_golden::targets::Target;
 use wheatstone_testbench::baseline::Recorded;
+use wheatstone_testbench::generated::Generated;
 use wheatstone_testbench::mutation::record::{Reviews, Scores};
 use wheatstone_testbench::{cover, prove, synth, verification};
 
@@ -35,6 +37,15 @@ fn said<T>(result: Result<T, impl Display>) -> Result<(), String> {
     result.map(drop).map_err(|error| error.to_string())
 }
 
+/// Pages with tables of records.
+const PAGES: [Generated; 5] = [
+    Generated::Page(Target::Stereo),
+    Generated::Formal,
+    Generated::Readme,
+    Generated::Mutation,
+    Generated::Verification,
+];
+
 #[test]
 fn damaged_records_are_refused_or_read() {
     let readers: [Reader; 6] = [
@@ -48,18 +59,38 @@ fn damaged_records_are_refused_or_read() {
     let inputs = std::env::var("WHEATSTONE_FUZZ").ok().and_then(|n| n.parse().ok());
     let folder = tempfile::tempdir().expect("a folder");
     let waivers = fs::read(workspace().join(cover::WAIVERS)).expect("waivers");
-    for (number, (file, read)) in readers.into_iter().enumerate() {
-        let whole = fs::read(workspace().join(file)).expect("a record");
+    let whole = readers.map(|(file, _)| fs::read(workspace().join(file)).expect("a record"));
+    for ((file, _), whole) in readers.iter().zip(&whole) {
         let path = folder.path().join(file);
         fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        fs::write(&path, whole).expect("written");
+    }
+    // The page of proofs has what their modules say.
+    let rtl = std::path::absolute(workspace().join("rtl")).expect("a path");
+    std::os::unix::fs::symlink(rtl, folder.path().join("rtl")).expect("a link");
+    let present =
+        PAGES.map(|page| fs::read_to_string(workspace().join(page.path())).expect("a page"));
+    let mut made = 0;
+    for (number, ((file, read), whole)) in readers.into_iter().zip(&whole).enumerate() {
+        let path = folder.path().join(file);
         for input in 0..inputs.unwrap_or(INPUTS) {
             let mut rng = fastrand::Rng::with_seed((number << 32 | input) as u64);
-            fs::write(&path, mutate(&whole, &waivers, &mut rng)).expect("written");
-            if let Err(text) = read(folder.path()) {
-                assert!(text.contains(file), "{file}, input {input}: {text}");
+            fs::write(&path, mutate(whole, &waivers, &mut rng)).expect("written");
+            match read(folder.path()) {
+                Err(text) => assert!(text.contains(file), "{file}, input {input}: {text}"),
+                Ok(()) => made += 1,
             }
-            let text = mutate(&waivers, &whole, &mut rng);
+            // What is read is shown too.
+            for (page, present) in PAGES.iter().zip(&present) {
+                if let Err(error) = page.renewed(present, folder.path()) {
+                    let text = error.to_string();
+                    assert!(text.contains(file), "{file}, input {input}: {text}");
+                }
+            }
+            let text = mutate(&waivers, whole, &mut rng);
             let _ = cover::Waiver::parse(&String::from_utf8_lossy(&text));
         }
+        fs::write(&path, whole).expect("written");
     }
+    assert!(made > 0, "none was read");
 }
