@@ -383,6 +383,81 @@ fn beats_that_differ_between_the_two_files_are_named_by_line() {
     });
 }
 
+/// The hash in the manifest is the new file's.
+#[test]
+fn bits_beyond_a_beat_are_zeros() {
+    refused("padding", &["field ports.beat.bin: beat 2 of beat.bin has ones beyond its 35"], |p| {
+        p.edit("beat.bin", |bytes| bytes[14] |= 1 << 3);
+        let content = fs::read(p.pack.join("beat.bin")).expect("the beats");
+        let hash = blake3::hash(&content).to_hex().to_string();
+        p.manifest(|m| m["ports"][0]["bin"]["blake3"] = json!(hash));
+    });
+}
+
+#[test]
+fn a_manifest_is_text_as_any_other() {
+    let sound = Sound::new();
+    sound.edit("manifest.json", |bytes| drop(bytes.splice(0..0, *b"\xef\xbb\xbf")));
+    pack::check(&sound.pack).expect("a mark is dropped");
+    refused("UTF-16", &["manifest.json", "UTF-16 (little-endian) text; save it as UTF-8"], |p| {
+        p.edit("manifest.json", |bytes| {
+            let text = String::from_utf8(bytes.clone()).expect("text");
+            *bytes = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        });
+    });
+}
+
+/// A pack in which nothing is compared looks like one that is equal.
+#[test]
+fn a_pack_has_something_to_compare() {
+    let words = "nothing in it is compared: no output beat and no flag; write it with more --beats";
+    refused("no beats", &[words], |p| {
+        for file in ["beat.bin", "beat.mem", "pixel.bin", "pixel.mem"] {
+            p.edit(file, Vec::clear);
+        }
+        p.edit("vec.vh", |bytes| {
+            let text = String::from_utf8(bytes.clone()).expect("text");
+            let emptied = |line: &str| match line.rsplit_once(' ') {
+                Some((name, _)) if name.ends_with("_BEATS") => format!("{name} 0\n"),
+                Some((name, _)) if name.ends_with("_CRC") => format!("{name} 32'h00000000\n"),
+                _ => format!("{line}\n"),
+            };
+            *bytes = text.lines().map(emptied).collect::<String>().into_bytes();
+        });
+        let hash = |file: &str| {
+            let content = fs::read(p.pack.join(file)).expect("a file");
+            json!(blake3::hash(&content).to_hex().to_string())
+        };
+        p.manifest(|m| {
+            for port in [0, 1] {
+                let port = &mut m["ports"][port];
+                (port["beats"], port["crc32"]) = (json!(0), json!("00000000"));
+                (port["bin"]["blake3"], port["mem"]["blake3"]) =
+                    (hash("beat.bin"), hash("beat.mem"));
+            }
+            m["bench"][0]["blake3"] = hash("vec.vh");
+            let manifest: Manifest = serde_json::from_value(m.clone()).expect("a manifest");
+            m["hash"] = json!(manifest.digest());
+        });
+    });
+    let mut case = cases::random(Target::Filter, &Config::DEFAULT, 1, 60);
+    case.outputs[0] = Default::default();
+    let error = pack::write(&case, &Origin::random(1), "", folder().path()).expect_err("nothing");
+    assert!(error.to_string().contains(words), "{error}");
+    // Flags of systems are compared in any case.
+    let units = Target::ALL.into_iter().filter(|target| !target.is_system());
+    for target in units {
+        for config in [Config::DEFAULT, Config::PAPER, Config::FULL] {
+            let packs = cases::for_packs(target, &config, 1, 50).into_iter().map(|(_, case)| case);
+            let random = (1..10).map(|seed| cases::random(target, &config, seed, 50));
+            for case in packs.chain(random).chain(cases::directed(target, &config)) {
+                let compared: usize = case.outputs.iter().map(|table| table.len()).sum();
+                assert!(compared > 0, "{} {}", target.name(), case.name);
+            }
+        }
+    }
+}
+
 #[test]
 fn a_pack_replaces_an_older_one_and_nothing_else() {
     let folder = folder();

@@ -29,8 +29,8 @@ pub struct Record {
 /// A pack that was equal in every bit.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Replay {
-    /// The target's name.
-    pub target: String,
+    /// The pack's name: that of its target, maybe with a hyphen and more.
+    pub pack: String,
     /// Name of the configuration.
     pub config: String,
     /// How it was replayed.
@@ -40,9 +40,20 @@ pub struct Replay {
 }
 
 impl Replay {
+    /// The target's name.
+    fn target(&self) -> &str {
+        self.pack.split('-').next().unwrap_or_default()
+    }
+
     /// Whether both are of the same pack in the same way.
     fn is_same(&self, other: &Replay) -> bool {
-        (&self.target, &self.config, &self.way) == (&other.target, &other.config, &other.way)
+        self.pack == other.pack && self.is_beside(other)
+    }
+
+    /// Whether both are of the same target in the same way.
+    fn is_beside(&self, other: &Replay) -> bool {
+        let own = (self.target(), &self.config, &self.way);
+        own == (other.target(), &other.config, &other.way)
     }
 }
 
@@ -110,26 +121,36 @@ impl Record {
         names.into_iter().filter_map(tell).collect()
     }
 
-    /// Replays that are not equal, not here, or here with another number of beats, a line each.
-    pub fn replay_faults(&self, replays: impl Iterator<Item = (Replay, bool)>) -> Vec<String> {
-        let tell = |(new, passed): (Replay, bool)| {
-            let what = match self.replays.iter().find(|old| old.is_same(&new)) {
+    /// Replays that are not equal, not here, or here with another number of beats, a line each; also packs of the
+    /// same targets that are only here. What is compared says of each whether it was equal.
+    pub fn replay_faults(&self, replays: &[(Replay, bool)]) -> Vec<String> {
+        let told = |replay: &Replay, what: &str| {
+            format!("{} {} {}: {what}", replay.pack, replay.config, replay.way)
+        };
+        let tell = |(new, passed): &(Replay, bool)| {
+            let what = match self.replays.iter().find(|old| old.is_same(new)) {
                 _ if !passed => "not equal".into(),
                 None => format!("not in {FILE}"),
                 Some(old) if old.beats == new.beats => return None,
                 Some(old) => format!("{} beats, recorded {}", new.beats, old.beats),
             };
-            Some(format!("{} {} {}: {what}", new.target, new.config, new.way))
+            Some(told(new, &what))
         };
-        replays.filter_map(tell).collect()
+        let is_gone = |old: &&Replay| {
+            let mut beside = replays.iter().filter(|(new, _)| new.is_beside(old)).peekable();
+            beside.peek().is_some() && !beside.any(|(new, _)| new.is_same(old))
+        };
+        let gone = self.replays.iter().filter(is_gone);
+        let gone = gone.map(|old| told(old, &format!("only in {FILE}")));
+        replays.iter().filter_map(tell).chain(gone).collect()
     }
 
-    /// Takes over a replay in the place of an older one; one that was not equal only removes that.
-    pub fn replay(&mut self, replay: Replay, passed: bool) {
-        self.replays.retain(|old| !old.is_same(&replay));
-        if passed {
-            self.replays.insert(replay);
-        }
+    /// Takes over replays in the place of older ones of the same targets; of those that were not equal nothing
+    /// stays.
+    pub fn replay(&mut self, replays: &[(Replay, bool)]) {
+        self.replays.retain(|old| !replays.iter().any(|(new, _)| new.is_beside(old)));
+        let passed = replays.iter().filter(|(_, passed)| *passed);
+        self.replays.extend(passed.map(|(replay, _)| replay.clone()));
     }
 
     /// Coverage of the Verilog, file by file.
@@ -167,25 +188,26 @@ impl Record {
         text
     }
 
-    /// Packs replayed, a row a target: beats, where all were equal.
+    /// Packs replayed, a row a pack: beats, where all were equal.
     pub fn replay_table(&self) -> String {
         let ways = Way::ALL.map(Way::name).join(" | ");
         let mut text = format!("\n| pack | {ways} |\n| --- | --- | --- | --- | --- |\n");
         let configs: BTreeSet<&str> = self.replays.iter().map(|r| r.config.as_str()).collect();
         for target in Target::ALL.map(Target::name) {
-            for config in &configs {
+            let of_target = self.replays.iter().filter(|r| r.target() == target);
+            let packs: BTreeSet<&str> = of_target.map(|r| r.pack.as_str()).collect();
+            for (pack, config) in
+                packs.iter().flat_map(|pack| configs.iter().map(move |c| (pack, c)))
+            {
                 let cells = Way::ALL.map(|way| {
-                    let of =
-                        |r: &&Replay| (r.target.as_str(), r.config.as_str()) == (target, *config);
-                    let replay = self.replays.iter().filter(of).find(|r| r.way == way.name());
+                    let name = (*pack, *config, way.name());
+                    let of = |r: &&Replay| (&*r.pack, &*r.config, &*r.way) == name;
+                    let replay = self.replays.iter().find(of);
                     replay.map_or("–".into(), |r| format!("{} beats", thousands(r.beats as f64)))
                 });
+                let cells = cells.join(" | ");
                 // Writing to a string cannot fail.
-                let _ = writeln!(
-                    text,
-                    "| [{target}]({target}.md) `{config}` | {} |",
-                    cells.join(" | ")
-                );
+                let _ = writeln!(text, "| [{pack}]({target}.md) `{config}` | {cells} |");
             }
         }
         text
@@ -197,31 +219,43 @@ mod tests {
     use super::*;
 
     fn replay(beats: u64) -> Replay {
-        let [target, config, way] = ["filter", "paper", "gates"].map(String::from);
-        Replay { target, config, way, beats }
+        let [pack, config, way] = ["mono", "paper", "gates"].map(String::from);
+        Replay { pack, config, way, beats }
+    }
+
+    fn right(beats: u64) -> Replay {
+        Replay { pack: "mono-right".into(), ..replay(beats) }
     }
 
     #[test]
     fn a_replay_takes_the_place_of_an_older_one() {
         let mut record = Record::default();
-        record.replay(replay(7), true);
-        record.replay(replay(1250), true);
-        let row = "| [filter](filter.md) `paper` | – | – | 1,250 beats | – |";
-        assert!(record.replay_table().contains(row), "{}", record.replay_table());
-        record.replay(replay(8), false);
-        assert!(record.replays.is_empty());
+        record.replay(&[(replay(7), true), (right(7), true)]);
+        record.replay(&[(replay(1250), true), (right(1250), true)]);
+        for name in ["mono", "mono-right"] {
+            let row = format!("| [{name}](mono.md) `paper` | – | – | 1,250 beats | – |\n");
+            assert!(record.replay_table().contains(&row), "{}", record.replay_table());
+        }
+        assert_eq!(record.replays.len(), 2);
+        record.replay(&[(replay(8), false)]);
+        assert!(record.replays.is_empty(), "of the target there is no other pack now");
     }
 
     #[test]
     fn what_no_longer_replays_as_recorded_is_told() {
         let mut record = Record::default();
-        record.replay(replay(7), true);
-        let faults = |replay, passed| record.replay_faults([(replay, passed)].into_iter());
+        record.replay(&[(replay(7), true)]);
+        let faults = |replay, passed| record.replay_faults(&[(replay, passed)]);
         assert_eq!(faults(replay(7), true), [""; 0]);
-        assert_eq!(faults(replay(7), false), ["filter paper gates: not equal"]);
-        assert_eq!(faults(replay(8), true), ["filter paper gates: 8 beats, recorded 7"]);
+        assert_eq!(faults(replay(7), false), ["mono paper gates: not equal"]);
+        assert_eq!(faults(replay(8), true), ["mono paper gates: 8 beats, recorded 7"]);
         let other = Replay { way: "icarus".into(), ..replay(7) };
-        assert_eq!(faults(other, true), [format!("filter paper icarus: not in {FILE}")]);
+        assert_eq!(faults(other, true), [format!("mono paper icarus: not in {FILE}")]);
+        // A pack that is new, and one that the target has no longer.
+        let [new, gone] = ["not", "only"].map(|what| format!("{what} in {FILE}"));
+        let expected =
+            [format!("mono-right paper gates: {new}"), format!("mono paper gates: {gone}")];
+        assert_eq!(faults(right(7), true), expected);
     }
 
     #[test]

@@ -248,21 +248,6 @@ fn pictures_have_ids_of_the_triangles() {
     assert!(folder.path().join("p/anaglyph.png").exists());
 }
 
-#[test]
-fn places_that_cannot_be_written_are_named_before_the_work() {
-    let folder = folder(&[("file", "")]);
-    for line in [
-        "render --scene ramp --method direct --out file/pictures",
-        "vectors display --beats 10 --out file/packs",
-        "waves display --out file/waves",
-    ] {
-        let output = run(folder.path(), line);
-        let text = said(&output);
-        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
-        assert!(text.contains("file"), "{line}: {text}");
-    }
-}
-
 /// A limit to the size of files breaks off a write in its middle, as a full disk does.
 #[test]
 fn a_write_that_fails_half_way_is_an_error_and_leaves_nothing() {

@@ -94,6 +94,75 @@ fn a_report_goes_to_where_its_name_leads() {
     assert!(left.iter().all(|e| !e.file_name().to_string_lossy().ends_with(".part")), "{left:?}");
 }
 
+#[test]
+fn places_that_cannot_be_written_are_named_before_the_work() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in [("file", ""), ("r.json", "{}"), ("s.obj", "")] {
+        fs::write(folder.path().join(name), text).expect("written");
+    }
+    fs::create_dir_all(folder.path().join("pack")).expect("a folder");
+    let manifest = r#"{"format": "wheatstone-vectors"}"#;
+    fs::write(folder.path().join("pack/manifest.json"), manifest).expect("written");
+    for (words, told) in [
+        ("render --scene ramp --method direct --out file/pictures", "--out file/pictures: "),
+        ("vectors display --beats 10 --out file/packs", "--out file/packs: "),
+        ("waves display --out file/waves", "--out file/waves: "),
+        (
+            "cosim display --json r --junit ./r",
+            "--junit ./r: --json names it too; name another one",
+        ),
+        ("cosim display --json pack", "--json pack: a folder; name a file in it"),
+        ("cosim display --junit new/", "--junit new/: the name of a folder; name a file"),
+        ("cosim display --out /dev/null", "--out /dev/null: a device, where a folder is expected"),
+        ("cosim display --out file", "--out file: a file, where a folder is expected"),
+        ("cosim display --json x --out x", "--out x: --json names it too"),
+        ("cover filter --json pack", "--json pack: a folder"),
+        ("replay filter --json pack", "--json pack: a folder"),
+        ("prove filter --json pack", "--json pack: a folder"),
+        ("synth filter --json pack", "--json pack: a folder"),
+        ("mutate filter --json pack", "--json pack: a folder"),
+        ("baseline --json pack", "--json pack: a folder"),
+        ("reproduce filter --out file", "--out file: a file"),
+        ("compare --scene s.obj --json s.obj", "--json s.obj: --scene names it too"),
+        ("rig --scene ramp --rig r.json --json pack/../r.json", "--rig names it too"),
+        ("render --scene ramp --method direct --out pack/p", "pack is a vector pack, which has"),
+        ("rig --scene ramp --json pack/r", "pack is a vector pack, which has its own files alone"),
+    ] {
+        let output = line(folder.path(), words);
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{words}: {text}");
+        assert!(text.contains(told) && text.lines().count() == 1, "{words}: {text}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 4, "nothing was made");
+}
+
+#[test]
+fn parameters_that_pictures_know_nothing_of_are_errors() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (words, told) in [
+        (
+            "render --method direct --param filter=2",
+            "filter: makes no difference to pictures by --method direct",
+        ),
+        (
+            "render --method direct --param latency=4",
+            "latency: makes no difference to pictures by --method direct",
+        ),
+        (
+            "render --method minimal --param depth=sampled",
+            "depth: makes no difference to pictures by --method minimal",
+        ),
+        ("render --param slots=4", "slots: makes no difference to pictures by --method hybrid"),
+        ("compare --param latency=4", "latency: makes no difference to views that no clock"),
+    ] {
+        let output = line(folder.path(), &format!("{words} --scene ramp --out p"));
+        let text = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{words}: {text}");
+        assert!(text.starts_with(&format!("error: --param {told}")), "{words}: {text}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+}
+
 /// Text that clears the screen, and text that turns the direction of writing.
 const WILD: &str = "\u{1b}[2J\u{9b}1m\u{7f}\u{202e}\r";
 

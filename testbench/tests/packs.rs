@@ -64,11 +64,18 @@ fn options_that_make_no_difference_are_errors() {
         ("cosim display --param sampling=average", "--param sampling: no scene is drawn"),
         ("cosim display --param filter=2", "--param filter: makes no difference to display"),
         ("cosim hybrid --scene ramp --beats 5", "--beats: a scene is drawn whole"),
+        ("cosim filter --param latency=4", "--param latency: makes no difference to filter"),
+        ("cosim minimal --scene ramp --param filter=2", "--param filter: makes no difference"),
+        ("vectors sampler --scene ramp --param slots=4", "--param slots: makes no difference"),
+        ("synth filter --param latency=4", "--param latency: makes no difference to what is built"),
+        ("synth filter --param slots=4", "--param slots: makes no difference to what is built"),
+        ("mutate filter --param texture=nearest", "--param texture: makes no difference to what"),
         ("waves filter --cull back", "--cull: no scene is drawn"),
         ("waves filter --beats 5", "--beats: waveforms show the beats around"),
         ("replay filter --packs p --seed 2", "cannot be used with"),
     ] {
-        let out = if line.starts_with("replay") { "" } else { " --out made" };
+        let has_out = ["vectors", "cosim", "waves"].iter().any(|word| line.starts_with(word));
+        let out = if has_out { " --out made" } else { "" };
         let output = run(folder.path(), &format!("{line}{out}"));
         assert_eq!(output.status.code(), Some(2), "{line}: {}", said(&output));
         assert!(said(&output).contains(words), "{line}: no “{words}” in: {}", said(&output));
@@ -236,6 +243,25 @@ fn the_script_refuses_what_the_program_refuses() {
     fs::write(pack.join("evil.vpi"), "").expect("written");
     let (status, text) = script(&pack, &wheatstone);
     assert!(status == Some(2) && text.contains("evil.vpi is no file of this pack"), "{text}");
+    fs::remove_file(pack.join("evil.vpi")).expect("removed");
+    // That the Verilog is another one is told, and no reason to stop.
+    let other = folder.path().join("other");
+    fs::create_dir(&other).expect("a folder");
+    fs::write(other.join("sam_filter.v"), "other\n").expect("written");
+    let (status, text) =
+        script(&pack, &[&wheatstone[..], &["--rtl", &other.display().to_string()]].concat());
+    assert!(text.contains("sound, ") && text.contains("made for other Verilog"), "{text}");
+    assert!(status == Some(2) && text.contains("iverilog refuses sam_filter"), "{text}");
+    // What a check says that did not end well, and its status.
+    for says in ["echo late >&2; exit 4", "kill -9 $$"] {
+        let program = folder.path().join("program");
+        fs::write(&program, format!("#!/bin/sh\n{says}\n")).expect("written");
+        let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+        fs::set_permissions(&program, mode).expect("made executable");
+        let (found, text) = script(&pack, &["--wheatstone", &program.display().to_string()]);
+        assert_eq!(found, Some(4), "{says}: {text}");
+        assert!(!text.trim().is_empty() && !text.contains("PASS"), "{says}: {text}");
+    }
     let (status, text) = script(&pack, &["--wheatstone", "/no/wheatstone"]);
     assert!(status == Some(3) && text.contains("cargo build"), "{text}");
 }
@@ -256,7 +282,27 @@ fn a_copy_is_what_was_checked() {
         files
     };
     assert_eq!(files("copy"), files("p/display"));
-    // Never into a folder that is there, and one pack at a time.
-    assert_eq!(run(folder.path(), "check p/display --copy copy").status.code(), Some(2));
-    assert_eq!(run(folder.path(), "check p --copy other").status.code(), Some(2));
+    // Never into a folder that is there, and one pack at a time; what is no folder is told as what it is.
+    assert!(Command::new("mkfifo")
+        .arg(folder.path().join("pipe"))
+        .status()
+        .expect("it runs")
+        .success());
+    for (line, words) in [
+        ("check p/display --copy copy", "copy: is there already; name a folder that is not"),
+        ("check p --copy other", "p/manifest.json: No such file"),
+        ("check pipe", "pipe: a pipe (FIFO); name the folder of a pack"),
+        ("check none", "none: No such file or directory"),
+        ("check p/display/vec.vh", "vec.vh: a file; name the folder of a pack"),
+        ("vectors blend --out p/display", "p/display is a vector pack, which has its own files"),
+        (
+            "vectors blend --out p/display/new",
+            "p/display is a vector pack, which has its own files",
+        ),
+    ] {
+        let output = run(folder.path(), line);
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", said(&output));
+        assert!(said(&output).contains(words), "{line}: {}", said(&output));
+    }
+    assert_eq!(files("copy"), files("p/display"));
 }

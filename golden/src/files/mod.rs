@@ -18,7 +18,7 @@ pub use read::{irregular, read, read_own, ReadError, OWN_LIMIT};
 pub use scratch::{Scratch, Tidy};
 pub use set::Set;
 pub use temporary::remove_temporary;
-pub use write::{write, WriteError};
+pub use write::{replaced, write, WriteError};
 
 use std::fs::{File, FileType};
 use std::io;
@@ -26,7 +26,7 @@ use std::os::unix::fs::FileTypeExt;
 use std::path::Path;
 
 /// What a path leads to, if neither to a file nor to a folder.
-fn special(kind: FileType) -> Option<&'static str> {
+pub fn special(kind: FileType) -> Option<&'static str> {
     if kind.is_fifo() {
         Some("a pipe (FIFO)")
     } else if kind.is_socket() {

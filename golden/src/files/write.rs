@@ -43,17 +43,45 @@ pub fn write(file: &Path, content: &[u8]) -> Result<(), WriteError> {
 }
 
 fn put(file: &Path, content: &[u8]) -> io::Result<()> {
-    let target = match fs::metadata(file) {
+    match target(file)? {
+        Target::Output => pour(&mut io::stdout().lock(), content),
+        Target::Error => pour(&mut io::stderr().lock(), content),
+        Target::Special(there) => feed(file, &there, content),
+        Target::File(file) => replace(&file, content),
+    }
+}
+
+/// The file that [`write`] makes or replaces; none where it writes to what is there, or can write nothing.
+pub fn replaced(file: &Path) -> Option<PathBuf> {
+    match target(file) {
+        Ok(Target::File(file)) => Some(file),
+        _ => None,
+    }
+}
+
+/// What a name leads to.
+enum Target {
+    /// Standard output.
+    Output,
+    /// Standard error.
+    Error,
+    /// A device, pipe or socket.
+    Special(Metadata),
+    /// A file that is there or not.
+    File(PathBuf),
+}
+
+fn target(file: &Path) -> io::Result<Target> {
+    Ok(match fs::metadata(file) {
         Ok(there) if there.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
-        Ok(there) if is(&there, io::stdout()) => return pour(&mut io::stdout().lock(), content),
-        Ok(there) if is(&there, io::stderr()) => return pour(&mut io::stderr().lock(), content),
-        Ok(there) if !there.is_file() => return feed(file, &there, content),
-        Ok(_) if fs::symlink_metadata(file)?.is_symlink() => fs::canonicalize(file)?,
-        Ok(_) => file.to_owned(),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => led_to(file)?,
+        Ok(there) if is(&there, io::stdout()) => Target::Output,
+        Ok(there) if is(&there, io::stderr()) => Target::Error,
+        Ok(there) if !there.is_file() => Target::Special(there),
+        Ok(_) if fs::symlink_metadata(file)?.is_symlink() => Target::File(fs::canonicalize(file)?),
+        Ok(_) => Target::File(file.to_owned()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Target::File(led_to(file)?),
         Err(error) => return Err(error),
-    };
-    replace(&target, content)
+    })
 }
 
 /// Whether a file is the one that an open stream writes to.

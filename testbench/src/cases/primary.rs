@@ -307,12 +307,16 @@ fn for_one_eye(polygons: Vec<Polygon>, eye: Eye) -> Vec<Polygon> {
 pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
     let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
     let size = [rng.u32(24..90), rng.u32(16..70)];
-    let count = (beats / 150).max(2) as u32;
-    let polygons = systems::random_polygons(rng.u64(..), f, size, count);
-    let eye = Eye::BOTH[rng.usize(..2)];
-    let polygons = for_one_eye(polygons, eye);
+    let (seed, eye) = (rng.u64(..), Eye::BOTH[rng.usize(..2)]);
     let options = systems::options(rng, config);
-    monocular(&systems::job(config, options, size, &polygons), eye, "random polygons")
+    let of = |count| {
+        let polygons = for_one_eye(systems::random_polygons(seed, f, size, count), eye);
+        monocular(&systems::job(config, options, size, &polygons), eye, "random polygons")
+    };
+    // Of few, none may have a pixel: then of twice as many.
+    let counts = (0..10).map(|n| ((beats / 150).max(2) as u32) << n);
+    let is_drawn = |case: &Case| case.outputs.iter().all(|table| !table.is_empty());
+    counts.map(of).find(is_drawn).unwrap_or_else(|| of(0))
 }
 
 /// The case of a pack for an eye: random polygons, then some on top of each other, then planes that are barely

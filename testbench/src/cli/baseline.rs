@@ -32,6 +32,7 @@ pub(super) struct BaselineArgs {
 }
 
 pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
+    Places::default().scene(&args.scene).file("--json", &args.json).check()?;
     let settings = Settings::new::<&str>(&args.config, &[])?;
     // First, as models take a while to build.
     let scenes = scenes(args)?;

@@ -19,7 +19,10 @@ pub(super) struct CompareArgs {
 }
 
 pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
+    let places = Places::of_view(&args.common.view).file("--json", &args.json);
+    places.folder("--out", args.out.as_deref()).check()?;
     let settings = args.common.settings()?;
+    args.common.refuse_parameters(&["latency", "slots"], "views that no clock has a part in")?;
     let options = settings.options;
     if options.arrangement != Arrangement::Normal || options.single {
         let message = "--param display, displays: views are compared each on its own display";

@@ -55,6 +55,8 @@ enum WavesChoice {
 }
 
 pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
+    let places = Places::of_view(&args.common.view).file("--json", &args.json);
+    places.file("--junit", &args.junit).folder("--out", args.out.as_deref()).check()?;
     let settings = args.common.settings()?;
     let targets = targets(args)?;
     let scenes = scene_names(args, &targets, &settings)?;

@@ -38,6 +38,7 @@ pub(super) struct CoverArgs {
 }
 
 pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
+    Places::default().file("--json", &args.json).folder("--out", args.out.as_deref()).check()?;
     let rtl = rtl_folder(&args.rtl)?;
     let waivers = waivers()?;
     let recorded = args.check.then(verification_record).transpose()?;

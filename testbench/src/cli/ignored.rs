@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::settings::RUN_PARAMETERS;
-use wheatstone_golden::config::PARAMETERS;
+use wheatstone_golden::config::{Config, Parameter, PARAMETERS};
 
 impl Common {
     /// Refuses the options of a scene where none is drawn.
@@ -32,36 +32,83 @@ impl Common {
         }
     }
 
-    /// Refuses parameters that make no difference to any of the targets: build parameters that the Verilog
-    /// of none has, where no scene is drawn for them, and textures that none shows.
+    /// Refuses parameters that make no difference to any of the targets: build parameters that change none of
+    /// them, where a scene is not made other polygons by them, textures that none shows, and the latency of reads
+    /// where nothing is read.
     pub(super) fn refuse_foreign(&self, targets: &[Target]) -> Result<(), Failure> {
         let config = self.settings()?.config;
-        let names = || targets.iter().map(|t| t.name()).collect::<Vec<_>>().join(", ");
-        let has = |verilog: &str| {
-            let parameters = |t: &Target| t.interface(&config).parameters;
-            targets.iter().flat_map(parameters).any(|(name, _)| name == verilog)
-        };
-        let foreign = |name: &&str| match PARAMETERS.iter().find(|p| p.name == *name) {
-            Some(parameter) => self.view.scene.is_none() && !has(parameter.verilog),
+        let has_scene = self.view.scene.is_some();
+        let foreign = |name: &str| match PARAMETERS.iter().find(|p| p.name == name) {
+            Some(parameter) => {
+                (!has_scene || PARTS.contains(&name)) && !changes(parameter, &config, targets)
+            }
             // As [`Target::job`] says.
-            None if *name == "texture" => targets.iter().all(|t| {
+            None if name == "texture" => targets.iter().all(|t| {
                 matches!(t, Target::Traversal | Target::Primary | Target::Mono | Target::Stereo)
             }),
-            None => *name == "displays" && targets.iter().all(|t| *t == Target::Mono),
+            None if name == "latency" => targets.iter().all(|t| {
+                t.interface(&config).streams.iter().all(|stream| stream.answers.is_none())
+            }),
+            None => name == "displays" && targets.iter().all(|t| *t == Target::Mono),
         };
-        match self.named().find(foreign) {
-            Some(name) => Err(Failure::Input(format!(
-                "--param {name}: makes no difference to {}; leave it out",
-                names()
-            ))),
-            None => Ok(()),
-        }
+        refuse_parameters(&self.parameters, foreign, &listed(targets))
+    }
+
+    /// Refuses some parameters, which make no difference to what is named.
+    pub(super) fn refuse_parameters(&self, ignored: &[&str], what: &str) -> Result<(), Failure> {
+        refuse_parameters(&self.parameters, |name| ignored.contains(&name), what)
     }
 
     /// Names of the parameters that were given.
     pub(super) fn named(&self) -> impl Iterator<Item = &str> {
-        self.parameters.iter().filter_map(|text| text.split_once('=')).map(|(name, _)| name)
+        names(&self.parameters)
     }
+}
+
+/// Build parameters of parts that work on what was planned already.
+const PARTS: [&str; 3] = ["filter", "depth_test", "slots"];
+
+/// Refuses parameters that do not change what is built of targets.
+pub(super) fn refuse_unbuilt(
+    parameters: &[String],
+    config: &Config,
+    targets: &[Target],
+) -> Result<(), Failure> {
+    let unbuilt = |name: &str| {
+        let parameter = PARAMETERS.iter().find(|p| p.name == name);
+        parameter.is_none_or(|parameter| !changes(parameter, config, targets))
+    };
+    refuse_parameters(parameters, unbuilt, &format!("what is built of {}", listed(targets)))
+}
+
+/// Whether a build parameter changes the Verilog parameters or the ports of any of these.
+fn changes(parameter: &Parameter, config: &Config, targets: &[Target]) -> bool {
+    let mut configs = parameter.values.iter().filter_map(|value| {
+        let mut other = *config;
+        other.set(parameter.name, value).ok().map(|()| other)
+    });
+    configs.any(|other| targets.iter().any(|t| t.interface(&other) != t.interface(config)))
+}
+
+fn refuse_parameters(
+    parameters: &[String],
+    ignored: impl Fn(&str) -> bool,
+    what: &str,
+) -> Result<(), Failure> {
+    match names(parameters).find(|name| ignored(name)) {
+        Some(name) => Err(Failure::Input(format!(
+            "--param {name}: makes no difference to {what}; leave it out"
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn names(parameters: &[String]) -> impl Iterator<Item = &str> {
+    parameters.iter().filter_map(|text| text.split_once('=')).map(|(name, _)| name)
+}
+
+fn listed(targets: &[Target]) -> String {
+    targets.iter().map(|t| t.name()).collect::<Vec<_>>().join(", ")
 }
 
 /// Refuses an option that was given, and says why it would be ignored.

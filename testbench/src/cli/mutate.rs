@@ -1,5 +1,6 @@
 //! `wheatstone mutate`.
 
+use super::ignored::refuse_unbuilt;
 use super::*;
 use crate::mutation::record::{Reviews, Score, Scores, FILE, HEADINGS, REVIEWED_FILE};
 use crate::mutation::{
@@ -85,12 +86,17 @@ struct Found {
 }
 
 pub(super) fn run(args: &MutateArgs) -> Result<u8, Failure> {
+    Places::default().file("--json", &args.json).check()?;
     let root = root()?;
     if let Some(system) =
         args.targets.iter().find(|target| args.golden && !golden::is_unit(**target))
     {
         let why = format!("{}: only golden models of units have mutants", system.name());
         return Err(Failure::Input(why));
+    }
+    for target in args.targets().into_iter().filter(|_| !args.golden) {
+        let config = Settings::new(args.config(target), &args.parameters)?.config;
+        refuse_unbuilt(&args.parameters, &config, &args.targets())?;
     }
     let reviews = Reviews::read(&root)?;
     let scores = args.check.then(|| Scores::read(&root)).transpose()?;

@@ -44,6 +44,7 @@ pub(super) struct ProveArgs {
 }
 
 pub(super) fn run(args: &ProveArgs) -> Result<u8, Failure> {
+    Places::default().file("--json", &args.json).check()?;
     let rtl = rtl_folder(&args.rtl)?;
     let cache = cache_folder(workspace(), Prover::CACHE, |name| std::env::var_os(name));
     let fresh = args.fresh.then(|| Scratch::below(&cache)).transpose()?;

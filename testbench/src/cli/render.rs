@@ -42,6 +42,21 @@ enum MethodChoice {
     Hybrid,
 }
 
+impl MethodChoice {
+    /// Parameters that make no difference to the pictures, nor to what is said of them.
+    fn ignored(self) -> &'static [&'static str] {
+        match self {
+            MethodChoice::Direct => {
+                &["filter", "depth_test", "slots", "sampling", "display", "displays", "latency"]
+            }
+            MethodChoice::Minimal => {
+                &["filter", "depth", "depth_test", "slots", "sampling", "latency"]
+            }
+            MethodChoice::Hybrid => &["slots", "latency"],
+        }
+    }
+}
+
 fn parse_composite(text: &str) -> Result<Composite, String> {
     let names = Composite::ALL.map(|c| c.name()).join(", ");
     Composite::named(text).ok_or_else(|| format!("there are: {names}"))
@@ -53,7 +68,11 @@ fn parse_dpi(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
+    Places::of_view(&args.common.view).folder("--out", Some(&args.out)).check()?;
     let settings = args.common.settings()?;
+    let method = args.method.to_possible_value().map_or(String::new(), |m| m.get_name().to_owned());
+    let what = format!("pictures by --method {method}");
+    args.common.refuse_parameters(args.method.ignored(), &what)?;
     let name = args.common.view.scene.as_deref().unwrap_or("teapot");
     let scene = args.common.open(name, args.common.view.size)?;
     let geometry = args.common.geometry_of(&scene, &settings)?;

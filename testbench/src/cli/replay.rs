@@ -9,10 +9,11 @@ use crate::replay::{ReplayError, Replayed, Replayer, Way};
 use crate::synth::Synthesiser;
 use crate::verification::Replay;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use wheatstone_golden::files;
 use wheatstone_golden::files::Scratch;
 
-/// Random beats of a pack: what the netlist of a system takes in a minute or two.
+/// Random beats of a pack, beside what is rare: what the netlist of a system takes in some minutes.
 const BEATS: u64 = 1_000;
 
 #[derive(Debug, Args)]
@@ -20,7 +21,7 @@ pub(super) struct ReplayArgs {
     /// Units and systems (see `wheatstone list`); none means all
     #[arg(value_name = "TARGET", value_parser = parse_target)]
     targets: Vec<Target>,
-    /// Replay the packs in this folder [default: packs of random beats, made for the occasion]
+    /// Replay the packs in this folder [default: packs as `vectors` writes them, made for the occasion]
     #[arg(long, value_name = "DIR", conflicts_with_all = ["config", "beats", "seed"])]
     packs: Option<PathBuf>,
     /// How to replay, several with commas
@@ -93,18 +94,21 @@ struct Named {
 }
 
 impl Named {
-    fn beats(&self) -> u64 {
-        self.pack.manifest.ports.iter().map(|port| port.beats).sum()
+    /// Name of the pack: that of its folder.
+    fn name(&self) -> String {
+        self.pack.folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
 
     /// Its line in the record.
     fn replay(&self, way: Way) -> Replay {
-        let (target, config) = (self.pack.manifest.target.clone(), self.config.clone());
-        Replay { target, config, way: way.name().to_owned(), beats: self.beats() }
+        let (pack, config) = (self.name(), self.config.clone());
+        let beats = self.pack.manifest.beats();
+        Replay { pack, config, way: way.name().to_owned(), beats }
     }
 }
 
 pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
+    Places::default().file("--json", &args.json).check()?;
     let rtl = rtl_folder(&args.rtl)?;
     let recorded = args.check.then(verification_record).transpose()?;
     let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
@@ -128,8 +132,8 @@ pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
         .with_max_len(1)
         .map(|&(named, way)| {
             let replayed = replayer.replay(&named.pack, way)?;
-            let verdict = if replayed.passed { "equal" } else { "MISMATCH" };
-            let what = format!("{verdict} in {:.1} s", replayed.time.as_secs_f64());
+            let what =
+                format!("{} in {:.1} s", verdict(named, &replayed), replayed.time.as_secs_f64());
             spinner.tell(&format!("{} {}", named.label, way.name()), &what);
             Ok((named, way, replayed))
         })
@@ -140,12 +144,10 @@ pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
     if let Some(file) = &args.json {
         files::write(file, json(&results).as_bytes())?;
     }
+    let replays = results.iter().map(|(named, way, r)| (named.replay(*way), r.passed));
+    let replays: Vec<(Replay, bool)> = replays.collect();
     if args.record {
-        update_record(|record| {
-            results.iter().for_each(|(named, way, replayed)| {
-                record.replay(named.replay(*way), replayed.passed);
-            });
-        })?;
+        update_record(|record| record.replay(&replays))?;
     }
     let mut status = OK;
     for (named, way, replayed) in results.iter().filter(|(.., replayed)| !replayed.passed) {
@@ -153,8 +155,7 @@ pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
         status = MISMATCH;
     }
     if let Some(recorded) = recorded {
-        let replays = results.iter().map(|(named, way, r)| (named.replay(*way), r.passed));
-        status = status.max(checked(&recorded.replay_faults(replays), verification::FILE));
+        status = status.max(checked(&recorded.replay_faults(&replays), verification::FILE));
     }
     Ok(status)
 }
@@ -175,14 +176,7 @@ fn found(folder: &Path, targets: &[Target]) -> Result<Vec<Named>, Failure> {
     Ok(packs)
 }
 
-/// Beats that the case of a pack is asked for. A polygon of the monocular pipeline counts as 150 there, more
-/// than most of a pack's have.
-fn asked(target: Target, beats: u64) -> usize {
-    let times = if target == Target::Mono { 6 } else { 1 };
-    (times * beats) as usize
-}
-
-/// Packs of random beats.
+/// Packs as `wheatstone vectors` writes them.
 fn make(args: &ReplayArgs, rtl: &Path, out: &Path) -> Result<Vec<Named>, Failure> {
     let targets = match &args.targets[..] {
         [] => Target::ALL.to_vec(),
@@ -193,16 +187,28 @@ fn make(args: &ReplayArgs, rtl: &Path, out: &Path) -> Result<Vec<Named>, Failure
         let config = Settings::new::<&str>(name, &[])?.config;
         let origin = Origin { config: name.clone(), ..Origin::random(args.seed) };
         for &target in &targets {
-            let case = cases::random(target, &config, args.seed, asked(target, args.beats));
             let hash = pack::rtl_hash(rtl, target.module())?;
-            let written = pack::write(&case, &origin, &hash, &out.join(name))?;
-            for pack in pack::check(&written.folder)? {
-                let label = format!("{} {name}", target.name());
-                packs.push(Named { label, config: name.clone(), pack });
+            for (suffix, case) in cases::for_packs(target, &config, args.seed, args.beats as usize)
+            {
+                let origin = Origin { suffix, ..origin.clone() };
+                let written = pack::write(&case, &origin, &hash, &out.join(name))?;
+                for pack in pack::check(&written.folder)? {
+                    let label = format!("{}{suffix} {name}", target.name());
+                    packs.push(Named { label, config: name.clone(), pack });
+                }
             }
         }
     }
     Ok(packs)
+}
+
+/// What a replay shows: of a pack without output beats that its flags are equal.
+fn verdict(named: &Named, replayed: &Replayed) -> &'static str {
+    match (replayed.passed, named.pack.manifest.compared()) {
+        (false, _) => "MISMATCH",
+        (true, 0) => "flags equal",
+        (true, _) => "equal",
+    }
 }
 
 fn print_table(packs: &[Named], ways: &[WayChoice], results: &[(&Named, Way, Replayed)]) {
@@ -210,17 +216,21 @@ fn print_table(packs: &[Named], ways: &[WayChoice], results: &[(&Named, Way, Rep
     table.load_preset(comfy_table::presets::NOTHING);
     let ways: Vec<Way> = ways.iter().map(|choice| choice.way()).collect();
     let names = ways.iter().map(|way| way.name());
-    table.set_header(["pack", "beats"].into_iter().chain(names));
+    table.set_header(["pack", "beats", "compared"].into_iter().chain(names));
     for named in packs {
         let cell = |way: &Way| {
             let result = results.iter().find(|(n, w, _)| std::ptr::eq(*n, named) && w == way);
             result.map_or(String::new(), |(.., replayed)| match replayed.passed {
-                true => format!("equal {:.1} s", replayed.time.as_secs_f64()),
-                false => "MISMATCH".into(),
+                true => {
+                    format!("{} {:.1} s", verdict(named, replayed), replayed.time.as_secs_f64())
+                }
+                false => verdict(named, replayed).into(),
             })
         };
-        let row = [named.label.clone(), named.beats().to_string()];
-        table.add_row(row.into_iter().chain(ways.iter().map(cell)));
+        let manifest = &named.pack.manifest;
+        let beats = [manifest.beats(), manifest.compared()].map(|beats| beats.to_string());
+        let row = [named.label.clone()].into_iter().chain(beats);
+        table.add_row(row.chain(ways.iter().map(cell)));
     }
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(comfy_table::CellAlignment::Right);
@@ -233,9 +243,12 @@ fn print_table(packs: &[Named], ways: &[WayChoice], results: &[(&Named, Way, Rep
 fn json(results: &[(&Named, Way, Replayed)]) -> String {
     let entry = |(named, way, replayed): &(&Named, Way, Replayed)| {
         let manifest = &named.pack.manifest;
+        let compared = manifest.outputs().map(|port| (&port.name, port.beats));
+        let compared: BTreeMap<_, _> = compared.collect();
         serde_json::json!({
             "pack": named.label, "target": manifest.target, "with": way.name(),
-            "beats": named.beats(), "passed": replayed.passed,
+            "beats": manifest.beats(), "passed": replayed.passed, "compared": compared,
+            "flags": manifest.flags.iter().map(|flag| &flag.name).collect::<Vec<_>>(),
             "seconds": replayed.time.as_secs_f64(),
         })
     };

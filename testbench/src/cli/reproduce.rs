@@ -37,6 +37,7 @@ fn parse_experiments(text: &str) -> Result<Experiments, String> {
 }
 
 pub(super) fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
+    Places::default().file("--json", &args.json).folder("--out", Some(&args.out)).check()?;
     let spinner = Spinner::new();
     let reports = run_experiments(args.experiments.0, &args.out, |event| match event {
         Event::Begin(experiment) => spinner.tell(experiment.name, experiment.description),

@@ -39,21 +39,22 @@ fn parse_distance(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(args: &RigArgs) -> Result<u8, Failure> {
-    let RigArgs { at, view, .. } = args;
+    let RigArgs { at, view, json, out } = args;
+    Places::of_view(view).file("--json", json).folder("--out", out.as_deref()).check()?;
     let name = view.scene.as_deref().unwrap_or("teapot");
     let scene = view.open(name, view.size)?;
     let rig_file = view.rig.as_deref().map(RigFile::load).transpose()?;
     let volume = Volume::of(&scene, rig_file.and_then(|file| file.device()))?;
     say!("{name}, {volume}\n\n{}", volume.tables(at));
     volume.notes().iter().for_each(|note| say!("\nnote: {note}"));
-    if let Some(out) = &args.out {
+    if let Some(out) = out {
         let set = Set::new(out)?;
         let files = volume.plots(set.path())?;
         let files: Vec<PathBuf> = files.iter().map(|file| set.named(file)).collect();
         set.finish("distance_map.svg", |_| false)?;
         files.iter().for_each(|file| say!("file {}", printable_path(file)));
     }
-    if let Some(file) = &args.json {
+    if let Some(file) = json {
         let mut content = volume.json(at);
         content["scene"] = name.into();
         content["command"] = words::called().into();

@@ -1,5 +1,6 @@
 //! `wheatstone synth`.
 
+use super::ignored::refuse_unbuilt;
 use super::*;
 use crate::synth::record::{self, published, Entry, Record};
 use crate::synth::{Figure, Synthesiser, Tech};
@@ -47,6 +48,7 @@ enum TechChoice {
 }
 
 pub(super) fn run(args: &SynthArgs) -> Result<u8, Failure> {
+    Places::default().file("--json", &args.json).check()?;
     let tasks = tasks(args)?;
     let rtl = rtl_folder(&args.rtl)?;
     let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
@@ -107,6 +109,7 @@ fn tasks(args: &SynthArgs) -> Result<Vec<Task>, Failure> {
         };
         for name in &names {
             let config = Settings::new(name, &args.parameters)?.config;
+            refuse_unbuilt(&args.parameters, &config, &targets)?;
             let changed = args.parameters.iter().map(|text| format!(" {text}"));
             let label = format!("{name}{}", changed.collect::<String>());
             let task = |&target| Task { target, label: label.clone(), config, tech };

@@ -3,7 +3,7 @@
 use super::ignored::refuse;
 use super::*;
 use crate::cases::{self, Case};
-use crate::pack::{self, Drawn, Origin, SceneOrigin};
+use crate::pack::{self, Drawn, Manifest, Origin, SceneOrigin};
 use crate::regression::{command_line, counted, scene_head};
 use wheatstone_golden::text::{printable, printable_path};
 
@@ -42,9 +42,13 @@ pub(super) struct CheckArgs {
 }
 
 pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
+    Places::of_view(&args.common.view).folder("--out", Some(&args.out)).check()?;
     let settings = args.common.settings()?;
     let targets = targets(args, &settings)?;
     refuse_ignored(args, &targets)?;
+    for target in &targets {
+        pack::replaceable(&args.out.join(target.name()))?;
+    }
     let rtl = args.stimulus.rtl()?;
     let mut written = Vec::new();
     for &target in &targets {
@@ -57,7 +61,8 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
                 let [first, all] = [scene.beats, scene.beats_of].map(|n| counted(n, "beat"));
                 format!(": the first {first} of the primary pipeline's {all}")
             });
-            say!("{folder}: {}, {}{of}", printable(&case.name), counted(info.beats, "beat"));
+            let beats = beats_of(&info.manifest);
+            say!("{folder}: {}, {beats}{of}", printable(&case.name));
             written.push(info.folder);
         }
     }
@@ -69,6 +74,12 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
         say!("replay with:  iverilog -g2005 -I {folder} -o t {bench} {rtl}/*.v && vvp t");
     }
     Ok(OK)
+}
+
+/// How many beats a pack has, and which outputs have none.
+fn beats_of(manifest: &Manifest) -> String {
+    let beats = counted(manifest.beats(), "beat");
+    manifest.uncompared().map_or(beats.clone(), |none| format!("{beats}, {none}"))
 }
 
 /// The targets that packs are written of.
@@ -169,6 +180,9 @@ fn scene(
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
+    // One that is there is refused in any case.
+    let copy = args.copy.as_deref().filter(|copy| !copy.exists());
+    Places::default().folder("--copy", copy).check()?;
     let packs = match &args.copy {
         Some(copy) => vec![pack::copy(&args.folder, copy)?],
         None => pack::check(&args.folder)?,
@@ -179,7 +193,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
     for checked in &packs {
         let manifest = &checked.manifest;
         let folder = printable_path(&checked.folder);
-        let sound = format!("{folder}: sound, {}", counted(manifest.beats(), "beat"));
+        let sound = format!("{folder}: sound, {}", beats_of(manifest));
         match &rtl {
             None => say!("{sound}; no Verilog here to compare with"),
             Some(rtl) if pack::rtl_hash(rtl, &manifest.module)? == manifest.rtl_blake3 => {

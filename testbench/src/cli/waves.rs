@@ -55,6 +55,7 @@ fn parse_pixel(text: &str) -> Result<(Eye, u32, u32), String> {
 }
 
 pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
+    Places::of_view(&args.common.view).folder("--out", args.out.as_deref()).check()?;
     let settings = args.common.settings()?;
     args.common.refuse_foreign(&[args.target])?;
     let why = "waveforms show the beats around their focus, or the first ones";

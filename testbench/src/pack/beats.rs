@@ -51,6 +51,14 @@ pub(super) fn crc32(bytes: &[u8]) -> String {
     format!("{:08x}", crc.checksum(bytes))
 }
 
+/// The first beat in whose last byte a bit beyond the beat's is 1.
+pub(super) fn padded_with_ones(bytes: &[u8], beat_bytes: usize, bits: u32) -> Option<usize> {
+    let used = bits - 8 * (beat_bytes as u32 - 1);
+    bytes
+        .chunks(beat_bytes)
+        .position(|beat| beat.last().is_some_and(|byte| u32::from(*byte) >> used != 0))
+}
+
 /// Packed beats as `$readmemh` reads them, most significant digit first.
 pub(super) fn mem_text(bytes: &[u8], beat_bytes: usize, bits: u32) -> String {
     use std::fmt::Write;

@@ -5,12 +5,15 @@ use super::text::{fault, is_hash};
 use super::*;
 use crate::settings::RUN_PARAMETERS;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use wheatstone_golden::config::{Config, PARAMETERS};
+use wheatstone_golden::files::{self, Scratch, Tidy};
 use wheatstone_golden::formats::{Formats, DEPTH_MAX};
 use wheatstone_golden::interface::{Field, Interface, Stream};
 use wheatstone_golden::projection::Kind;
 use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::decode;
 
 /// Most ranges of distances of a projection.
 const RANGES_LIMIT: u64 = 1_000;
@@ -29,6 +32,7 @@ pub struct Checked {
 /// Verifies the pack in a folder, or all packs in the folders of a folder. Hidden folders, among which those
 /// of packs that are being written are, and links are none of them.
 pub fn check(folder: &Path) -> Result<Vec<Checked>, PackError> {
+    is_folder(folder)?;
     if fs::symlink_metadata(folder.join(MANIFEST)).is_ok() {
         return Ok(vec![check_one(folder, None)?]);
     }
@@ -48,14 +52,31 @@ pub fn check(folder: &Path) -> Result<Vec<Checked>, PackError> {
 }
 
 /// Verifies the pack in a folder and puts what was verified, byte for byte, into the folder `copy`, which
-/// is made. The pack that is returned is the copy.
+/// must not be there yet. The pack that is returned is the copy.
 pub fn copy(folder: &Path, copy: &Path) -> Result<Checked, PackError> {
-    fs::create_dir(copy).map_err(PackError::at(copy))?;
-    let checked = check_one(folder, Some(copy)).inspect_err(|_| {
-        // Nothing stays of a pack that is refused.
-        let _ = fs::remove_dir_all(copy);
-    })?;
+    is_folder(folder)?;
+    if fs::symlink_metadata(copy).is_ok() {
+        let why = "is there already; name a folder that is not, or remove it";
+        return Err(PackError::at(copy)(io::Error::other(why)));
+    }
+    let parent = copy.parent().filter(|parent| *parent != Path::new(""));
+    // Nothing stays of a pack that is refused.
+    let _tidy = Tidy::new(copy);
+    let scratch = Scratch::below(parent.unwrap_or(Path::new(".")));
+    let scratch = scratch.map_err(|e| PackError::at(e.file)(e.source))?;
+    let checked = check_one(folder, Some(scratch.path()))?;
+    files::publish(scratch, copy).map_err(|e| PackError::at(e.file)(e.source))?;
     Ok(Checked { folder: copy.into(), ..checked })
+}
+
+/// Says what is there if it is no folder.
+fn is_folder(path: &Path) -> Result<(), PackError> {
+    let found = match fs::metadata(path) {
+        Ok(there) if there.is_dir() => return Ok(()),
+        Ok(there) => files::special(there.file_type()).unwrap_or("a file").to_owned(),
+        Err(error) => error.to_string(),
+    };
+    Err(PackError::NoFolder { path: path.into(), found })
 }
 
 /// Compares what a manifest says with what is so.
@@ -295,6 +316,10 @@ impl Checker<'_> {
         let [bin_name, mem_name] = ["bin", "mem"].map(|kind| format!("{}.{kind}", stream.name));
         let bin = self.content(&field("bin"), &port.bin, &bin_name)?;
         self.same(&field("beats"), port.beats.saturating_mul(port.bytes.into()), bin.len() as u64)?;
+        if let Some(beat) = padded_with_ones(&bin, port.bytes as usize, port.bits) {
+            let found = format!("beat {beat} of {bin_name} has ones beyond its {} bits", port.bits);
+            return Err(self.fault(&field("bin"), found, "zeros there"));
+        }
         self.same(&field("crc32"), port.crc32.clone(), crc32(&bin))?;
         let mem = self.content(&field("mem"), &port.mem, &mem_name)?;
         let expected = mem_text(&bin, port.bytes as usize, port.bits);
@@ -338,17 +363,21 @@ impl Checker<'_> {
 
     /// The manifest, of this layout.
     fn manifest(&self) -> Result<Manifest, PackError> {
-        let text = self.folder.read(MANIFEST, MANIFEST_LIMIT)?;
-        let fault = |error: serde_json::Error| PackError::Manifest {
+        let bytes = self.folder.read(MANIFEST, MANIFEST_LIMIT)?;
+        let fault = |line, column, message| PackError::Manifest {
             path: self.path.clone(),
-            line: error.line(),
-            column: error.column(),
-            message: error.to_string(),
+            line,
+            column,
+            message,
         };
+        let text = decode(&bytes)
+            .map_err(|error| fault(error.line().unwrap_or(1), 1, error.to_string()))?;
+        let fault =
+            |error: serde_json::Error| fault(error.line(), error.column(), error.to_string());
         // The version first: another layout may have fields that this one does not know.
-        let value: serde_json::Value = serde_json::from_slice(&text).map_err(fault)?;
+        let value: serde_json::Value = serde_json::from_str(&text).map_err(fault)?;
         let format = value.get("format").and_then(|f| f.as_str()).unwrap_or("nothing");
-        self.same("format", format, "wheatstone-vectors")?;
+        self.same("format", format, FORMAT)?;
         let schema = value.get("schema");
         let found = schema.map_or("nothing".into(), |schema| schema.to_string());
         match schema.and_then(|schema| schema.as_u64()) {
@@ -362,8 +391,8 @@ impl Checker<'_> {
                 return Err(self.fault("schema", found, format!("{SCHEMA}; {remedy}")));
             }
         }
-        self.keep(MANIFEST, &text)?;
-        serde_json::from_slice(&text).map_err(fault)
+        self.keep(MANIFEST, &bytes)?;
+        serde_json::from_str(&text).map_err(fault)
     }
 }
 
@@ -413,6 +442,9 @@ fn check_one(folder: &Path, copy: Option<&Path>) -> Result<Checked, PackError> {
     let names: Vec<&str> = files.chain([MANIFEST]).collect();
     if let Some(file) = checker.folder.other_than(&names)? {
         return Err(PackError::Extra { path: folder.into(), file });
+    }
+    if manifest.is_vain() {
+        return Err(PackError::Vain { path: folder.into() });
     }
     Ok(Checked { folder: folder.into(), manifest, interface })
 }

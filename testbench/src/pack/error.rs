@@ -40,10 +40,24 @@ pub enum PackError {
         /// What it must say.
         expected: String,
     },
+    /// There is no folder of that name.
+    #[error("{}: {found}; name the folder of a pack or of packs, as written by: wheatstone vectors --out DIR", printable_path(.path))]
+    NoFolder {
+        /// The name.
+        path: PathBuf,
+        /// What is there.
+        found: String,
+    },
     /// The folder has no pack, nor packs in its folders.
     #[error("{0}: no vector pack here (a pack has a file manifest.json); write one with: wheatstone vectors --out {0}", printable_path(.path))]
     Missing {
         /// The folder.
+        path: PathBuf,
+    },
+    /// Nothing comes out that could differ.
+    #[error("{}: nothing in it is compared: no output beat and no flag; write it with more --beats, or of another --case, --scene or --seed", printable_path(.path))]
+    Vain {
+        /// The pack.
         path: PathBuf,
     },
     /// The folder has more than a pack.

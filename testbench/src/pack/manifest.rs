@@ -67,6 +67,31 @@ impl Manifest {
     pub fn beats(&self) -> u64 {
         self.ports.iter().map(|port| port.beats).sum()
     }
+
+    /// The streams that are compared.
+    pub fn outputs(&self) -> impl Iterator<Item = &Port> {
+        self.ports.iter().filter(|port| port.direction == "output")
+    }
+
+    /// Beats that are compared.
+    pub fn compared(&self) -> u64 {
+        self.outputs().map(|port| port.beats).sum()
+    }
+
+    /// Whether there is nothing that could differ but a beat too many.
+    pub fn is_vain(&self) -> bool {
+        self.compared() == 0 && self.flags.is_empty()
+    }
+
+    /// Says which outputs have no beats to compare; nothing where all have some.
+    pub fn uncompared(&self) -> Option<String> {
+        if self.compared() == 0 {
+            return Some("no output beat to compare, flags alone".into());
+        }
+        let empty = self.outputs().filter(|port| port.beats == 0).map(|port| port.name.as_str());
+        let names = empty.collect::<Vec<_>>().join(" and ");
+        (!names.is_empty()).then(|| format!("no beat of {names} to compare"))
+    }
 }
 
 /// A name and a number.

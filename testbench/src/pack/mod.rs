@@ -23,10 +23,21 @@ pub use check::{check, copy, Checked};
 pub use error::PackError;
 pub use manifest::*;
 pub use origin::{Drawn, Origin};
+pub use publish::replaceable;
 pub use write::{rtl_hash, write, PackInfo};
 
-use beats::{crc32, direction_name, mem_text, packed_fields};
+use beats::{crc32, direction_name, mem_text, packed_fields, padded_with_ones};
+use std::path::Path;
+use wheatstone_golden::files;
 
+/// Whether a folder is that of a pack, sound or not.
+pub fn is_pack(folder: &Path) -> bool {
+    let manifest = files::read(&folder.join(MANIFEST), MANIFEST_LIMIT);
+    manifest.is_ok_and(|bytes| String::from_utf8_lossy(&bytes).contains(FORMAT))
+}
+
+/// What a manifest says that it is of.
+const FORMAT: &str = "wheatstone-vectors";
 /// Most bytes of a manifest.
 const MANIFEST_LIMIT: u64 = 1 << 20;
 /// Most bytes of any other file.

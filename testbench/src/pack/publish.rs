@@ -1,6 +1,6 @@
 //! A finished pack in its place.
 
-use super::{PackError, MANIFEST};
+use super::{is_pack, PackError};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::Path;
@@ -18,17 +18,22 @@ const PATIENCE: Duration = Duration::from_secs(2);
 pub(super) fn publish(finished: Scratch, folder: &Path) -> Result<(), PackError> {
     let parent = folder.parent().unwrap_or(Path::new("."));
     let _lock = lock(parent, LIMIT)?;
+    replaceable(folder)?;
+    files::publish(finished, folder).map_err(|e| PackError::at(e.file)(e.source))
+}
+
+/// Refuses a place that has anything else than a pack.
+pub fn replaceable(folder: &Path) -> Result<(), PackError> {
     match fs::symlink_metadata(folder) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-        Err(error) => return Err(PackError::at(folder)(error)),
-        Ok(found) if found.is_dir() && fs::symlink_metadata(folder.join(MANIFEST)).is_ok() => {}
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(PackError::at(folder)(error)),
+        Ok(found) if found.is_dir() && is_pack(folder) => Ok(()),
         Ok(_) => {
             let why =
                 "exists and is no vector pack; it is left alone: move it, or name another --out";
-            return Err(PackError::at(folder)(io::Error::other(why)));
+            Err(PackError::at(folder)(io::Error::other(why)))
         }
     }
-    files::publish(finished, folder).map_err(|e| PackError::at(e.file)(e.source))
 }
 
 /// Keeps other writers of packs away from a folder, until the file is closed.

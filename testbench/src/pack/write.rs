@@ -37,6 +37,9 @@ pub fn write(
     let temporary = Scratch::new(out).map_err(PackError::at(out))?;
     let manifest = fill(case, origin, rtl_blake3, temporary.path())?;
     let folder = out.join(format!("{}{}", case.target.name(), origin.suffix));
+    if manifest.is_vain() {
+        return Err(PackError::Vain { path: folder });
+    }
     publish::publish(temporary, &folder)?;
     Ok(PackInfo { beats: manifest.beats(), folder, manifest })
 }
@@ -81,7 +84,7 @@ fn fill(
     };
     let config = if origin.config.is_empty() { "default" } else { &origin.config };
     let mut manifest = Manifest {
-        format: "wheatstone-vectors".into(),
+        format: FORMAT.into(),
         schema: SCHEMA,
         generator: GENERATOR.into(),
         target: interface.target.into(),
