@@ -53,6 +53,18 @@ fn a_result_that_cannot_be_printed_is_an_error() {
     }
 }
 
+/// The null device, which takes the place of a closed stream, is no place for results.
+#[test]
+fn a_closed_standard_output_is_an_error() {
+    for (redirection, status) in [(">&-", 2), (">/dev/null", 0), ("1<>/dev/null", 0)] {
+        let script = format!("exec {} list --json {redirection}", env!("CARGO_BIN_EXE_wheatstone"));
+        let output = Command::new("sh").arg("-c").arg(&script).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(status), "{redirection}: {}", said(&output));
+        let told = said(&output).contains("error: standard output is closed: ");
+        assert_eq!(told, status == 2, "{redirection}: {}", said(&output));
+    }
+}
+
 #[test]
 fn a_report_goes_to_where_its_name_leads() {
     let folder = tempfile::tempdir().expect("a folder");

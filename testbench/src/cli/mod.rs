@@ -193,6 +193,10 @@ fn parse_target(text: &str) -> Result<Target, String> {
 
 /// Runs the program.
 pub fn main() -> ExitCode {
+    if let Some(why) = print::closed() {
+        tell!("error: {why}");
+        return ExitCode::from(BAD_INPUT);
+    }
     let cli = match words::parse() {
         Ok(cli) => cli,
         Err(status) => return ExitCode::from(print::finish(status)),

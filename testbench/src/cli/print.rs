@@ -6,6 +6,7 @@
 use super::{BAD_INPUT, OK};
 use std::fmt::Arguments;
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use wheatstone_golden::text::printable_within;
 
@@ -20,6 +21,22 @@ macro_rules! say {
 /// Prints a line of progress or an error, or some, on standard error.
 macro_rules! tell {
     ($($argument:tt)*) => { $crate::cli::print::err(format_args!($($argument)*)) };
+}
+
+/// Whether standard output was closed when the program began: before `main`, the null device takes its place.
+static CLOSED: AtomicBool = AtomicBool::new(false);
+
+/// Before `main` there is little that may be called; asking the system is.
+#[ctor::ctor]
+fn look() {
+    CLOSED.store(rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err(), Ordering::Relaxed);
+}
+
+/// Says that standard output is closed, if it is.
+pub(super) fn closed() -> Option<&'static str> {
+    let why =
+        "standard output is closed: nothing can be printed; lead it to a file, or to /dev/null";
+    CLOSED.load(Ordering::Relaxed).then_some(why)
 }
 
 /// The first thing that went wrong with standard output.
