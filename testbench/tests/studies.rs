@@ -53,7 +53,10 @@ fn bad_input_of_reproduce_has_status_2() {
     let names = "no such experiment; there are: filter, adelson, village";
     refused(&["reproduce", "filters", "--out", "found"], names);
     refused(&["reproduce", "filter"], "--out");
-    refused(&["reproduce", "filter", "--out", "taken"], "taken/filter: cannot be written");
+    refused(
+        &["reproduce", "filter", "--out", "taken"],
+        "--out taken: a file, where a folder is expected",
+    );
     refused(&["reproduce", "filter", "--out", "/proc/found"], "cannot be written");
     let json = ["reproduce", "filter", "--out", "found", "--json", "taken/all.json"];
     refused(&json, "taken/all.json: cannot be written");
@@ -80,7 +83,7 @@ fn methods_are_compared() {
         (&["compare", "--scene", "none"][..], "scene none: expected"),
         (&["compare", "--rig", "none.json"], "none.json: cannot be read"),
         (&["compare", "--param", "display=rotated"], "each on its own display"),
-        (&["compare", "--out", "compare.json"], "compare.json: cannot be written"),
+        (&["compare", "--out", "compare.json"], "--out compare.json: a file, where a folder"),
     ] {
         let output = run(folder.path(), arguments);
         assert_eq!(status(&output), Some(2), "{arguments:?}");
