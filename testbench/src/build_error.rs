@@ -63,7 +63,13 @@ impl BuildError {
     pub(crate) fn named_from(self, rtl: &Path) -> BuildError {
         match self {
             BuildError::Failed { tool, module, lines, log } => {
-                BuildError::Failed { tool, module, lines: sources::named_from(rtl, &lines), log }
+                let mut lines = sources::named_from(rtl, &lines);
+                let file = rtl.join(&module).with_extension("v").display().to_string();
+                if !lines.contains(&file) {
+                    // Where a module is missing, Verilator names no file.
+                    lines += &format!("\n(its Verilog: {file})");
+                }
+                BuildError::Failed { tool, module, lines, log }
             }
             other => other,
         }
