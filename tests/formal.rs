@@ -82,6 +82,22 @@ fn what_was_cut_short_is_told_and_not_kept() {
     assert_eq!(kept(), 1);
 }
 
+/// All properties together may be too much for as many clocks as each of them is tried for alone: nothing is lost
+/// where they then are.
+#[test]
+fn what_is_tried_again_alone_was_not_cut_short() {
+    let (tools, cache) = (folder(), folder());
+    let together = tools.path().join("together");
+    let fake = format!(
+        "case \" $* \" in *' -i '*) echo Status: FAILED; exit 1;; esac\n\
+         test -e '{0}' && {{ echo Status: PASSED; exit; }}\n: >'{0}'; while :; do :; done",
+        together.display()
+    );
+    let found = proved(&prover_with(&fake, [tools.path(), cache.path()]), "stage");
+    assert_eq!(found.verdict("data"), Some(Verdict::Bounded(4)), "{found:?}");
+    assert!(!found.proof.was_stopped() && together.exists(), "{found:?}");
+}
+
 /// A solver that fails is no prover that was stopped.
 #[test]
 fn a_prover_that_fails_is_an_error() {

@@ -105,6 +105,7 @@ impl Task<'_> {
     ) -> Result<BTreeMap<String, Verdict>, FlowError> {
         let (alone, lemmas): (Vec<_>, Vec<_>) =
             labels.iter().cloned().partition(|label| name(label).is_some());
+        // Whether a prover was stopped that might have proved something of any number of clocks.
         let mut stopped = false;
         if effort.has_no_registers() {
             match self.holds_in_every_state()? {
@@ -118,8 +119,9 @@ impl Task<'_> {
         let mut all = BTreeMap::new();
         // Without registers nothing is gained by proving all at once.
         if effort.induction > 1 || alone.len() == 1 {
-            all = self.prove_some(labels, &[], effort)?;
-            stopped |= all.values().any(|verdict| verdict.is_stopped());
+            let (together, induction_stopped) = self.prove_some(labels, &[], effort)?;
+            all = together;
+            stopped |= induction_stopped;
         }
         let is_open = |label: &&String| all.get(*label).is_none_or(|found| found.is_stopped());
         let open: Vec<&String> = alone.iter().filter(is_open).collect();
@@ -128,7 +130,7 @@ impl Task<'_> {
             for label in open {
                 let others: Vec<String> = alone.iter().filter(|l| *l != label).cloned().collect();
                 let with_it: Vec<String> = lemmas.iter().chain([label]).cloned().collect();
-                for (label, found) in self.prove_some(&with_it, &others, effort)? {
+                for (label, found) in self.prove_some(&with_it, &others, effort)?.0 {
                     let best = all.entry(label).or_insert(found);
                     *best = best.or(found);
                 }
@@ -140,16 +142,16 @@ impl Task<'_> {
     }
 
     /// Induction of what can be proved so, then so many clocks from reset. The assertions are `labels`,
-    /// those that there are without `others`.
+    /// those that there are without `others`. Tells too whether the induction was stopped.
     fn prove_some(
         &self,
         labels: &[String],
         others: &[String],
         effort: Effort,
-    ) -> Result<BTreeMap<String, Verdict>, FlowError> {
+    ) -> Result<(BTreeMap<String, Verdict>, bool), FlowError> {
         // What fails is left out until the rest is an induction.
         let mut left_out = others.to_vec();
-        let mut stopped = false;
+        let mut induction_stopped = false;
         let depth = loop {
             if left_out.len() == others.len() + labels.len() {
                 break 0;
@@ -158,7 +160,7 @@ impl Task<'_> {
                 Run::Passed(depth) => break depth,
                 Run::Failed { labels, .. } if !labels.is_empty() => left_out.extend(labels),
                 run => {
-                    stopped = matches!(run, Run::Stopped(_));
+                    induction_stopped = matches!(run, Run::Stopped(_));
                     left_out.extend_from_slice(labels);
                     break 0;
                 }
@@ -167,17 +169,19 @@ impl Task<'_> {
         let is_inductive = |label: &String| !left_out.contains(label);
         let all_are = labels.iter().all(is_inductive);
         let of_all = |verdict: &dyn Fn(&String) -> Verdict| {
-            labels.iter().map(|label| (label.clone(), verdict(label))).collect()
+            let all = labels.iter().map(|label| (label.clone(), verdict(label))).collect();
+            (all, induction_stopped)
         };
         // What holds in every state needs no base.
         if depth == 0 && all_are {
             return Ok(of_all(&|_| Verdict::Induction(depth)));
         }
         // One clock that took too long takes too long again.
-        if stopped && effort.bound == 1 {
+        if induction_stopped && effort.bound == 1 {
             return Ok(of_all(&|_| Verdict::Stopped(0)));
         }
         let bound = if all_are { effort.induction } else { effort.bound };
+        let mut stopped = induction_stopped;
         let (reached, failed) = match self.bounded(others, bound)? {
             Run::Passed(_) => (bound, Vec::new()),
             Run::Failed { step, labels } => (step, labels),
