@@ -312,6 +312,11 @@ fn temporary_folders_and_links_are_no_packs() {
     symlink(&part, folder.path().join("link")).expect("a link");
     assert_eq!(pack::check(folder.path()).expect("one pack").len(), 1);
     assert!(part.join("manifest.json").exists() && pack.exists());
+    // One without a manifest is.
+    let other = write(&cases::random(Target::Sampler, &Config::DEFAULT, 1, 10), 1, folder.path());
+    fs::remove_file(other.join("manifest.json")).expect("removed");
+    let error = pack::check(folder.path()).expect_err("a pack without manifest").to_string();
+    assert!(error.contains("sampler/manifest.json"), "{error}");
 }
 
 /// Writers at once: each of them ends well, and the pack is at all times a whole one.

@@ -157,7 +157,10 @@ impl Folder {
     /// A command of a tool that works in this folder and finds the programs that it calls.
     pub fn command(&self, tool: &Found) -> Command {
         let mut command = Command::new(&tool.program);
-        command.current_dir(self.folder.path()).env("PATH", tools::search_path());
+        let folder = self.folder.path();
+        command.current_dir(folder).env("PATH", tools::search_path());
+        // What is left there by one that is killed goes with the folder.
+        command.env("TMPDIR", std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned()));
         // Tools from PyPI compile themselves at their first call and keep that here.
         if let Some(cache) = tools::python_cache() {
             command.env("YOWASP_CACHE_DIR", cache);

@@ -239,7 +239,9 @@ impl Builder {
     /// g++ with the flags of every compilation, working in `folder`.
     fn compiler(&self, folder: &Path) -> Command {
         let mut command = self.tools.command(&self.tools.gxx);
-        command.current_dir(folder).arg(self.optimisation).args(GXX_FLAGS);
+        // What is left there by one that is killed goes with the folder.
+        command.current_dir(folder).env("TMPDIR", absolute(folder));
+        command.arg(self.optimisation).args(GXX_FLAGS);
         command.args(self.macros());
         command.arg("-I").arg(&self.tools.include).arg("-I").arg(self.tools.include.join("vltstd"));
         command

@@ -10,11 +10,14 @@ use wheatstone_golden::interface::{Direction, Field, Interface, Stream};
 pub fn files(manifest: &Manifest, interface: &Interface) -> [(&'static str, String); 3] {
     [
         ("vec.vh", header(manifest, interface)),
-        ("replay.v", bench(interface)),
+        (BENCH, bench(interface)),
         // The Verilog includes it, and `-I PACK` is all that a simulator is told.
         ("sam_formats.vh", formats_header()),
     ]
 }
+
+/// The bench.
+pub(super) const BENCH: &str = "replay.v";
 
 /// The macros of `vec.vh`.
 fn header(manifest: &Manifest, interface: &Interface) -> String {

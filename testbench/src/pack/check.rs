@@ -1,5 +1,6 @@
 //! Verifying a pack.
 
+use super::bench::BENCH;
 use super::folder::Folder;
 use super::text::{fault, is_hash};
 use super::*;
@@ -36,14 +37,17 @@ pub fn check(folder: &Path) -> Result<Vec<Checked>, PackError> {
     if fs::symlink_metadata(folder.join(MANIFEST)).is_ok() {
         return Ok(vec![check_one(folder, None)?]);
     }
-    let entries = fs::read_dir(folder).map_err(PackError::at(folder))?;
-    let is_pack = |entry: &fs::DirEntry| {
+    let mut folders = Vec::new();
+    for entry in fs::read_dir(folder).map_err(PackError::at(folder))? {
+        let entry = entry.map_err(PackError::at(folder))?;
         let hidden = entry.file_name().to_string_lossy().starts_with('.');
-        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-        !hidden && is_folder && fs::symlink_metadata(entry.path().join(MANIFEST)).is_ok()
-    };
-    let packs = entries.filter_map(|entry| entry.ok()).filter(is_pack);
-    let mut folders: Vec<PathBuf> = packs.map(|entry| entry.path()).collect();
+        let is_folder = entry.file_type().map_err(PackError::at(entry.path()))?.is_dir();
+        // A pack that has lost its manifest is none that can be passed over.
+        let is_there = |name| fs::symlink_metadata(entry.path().join(name)).is_ok();
+        if !hidden && is_folder && [MANIFEST, BENCH].into_iter().any(is_there) {
+            folders.push(entry.path());
+        }
+    }
     folders.sort();
     if folders.is_empty() {
         return Err(PackError::Missing { path: folder.into() });
@@ -315,7 +319,12 @@ impl Checker<'_> {
         self.same(&field("bytes"), port.bytes, port.bits.div_ceil(8))?;
         let [bin_name, mem_name] = ["bin", "mem"].map(|kind| format!("{}.{kind}", stream.name));
         let bin = self.content(&field("bin"), &port.bin, &bin_name)?;
-        self.same(&field("beats"), port.beats.saturating_mul(port.bytes.into()), bin.len() as u64)?;
+        let (size, bytes) = (bin.len() as u64, u64::from(port.bytes));
+        if size % bytes != 0 {
+            let found = format!("{bin_name} of {size} bytes");
+            return Err(self.fault(&field("bin"), found, "whole beats"));
+        }
+        self.same(&field("beats"), port.beats, size / bytes)?;
         if let Some(beat) = padded_with_ones(&bin, port.bytes as usize, port.bits) {
             let found = format!("beat {beat} of {bin_name} has ones beyond its {} bits", port.bits);
             return Err(self.fault(&field("bin"), found, "zeros there"));

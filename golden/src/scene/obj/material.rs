@@ -75,6 +75,8 @@ pub struct Library {
     definitions: Vec<Definition>,
     /// Indices of the definitions by their names.
     names: HashMap<String, usize>,
+    /// The same of names without what looks like a comment behind them, each the first.
+    bare_names: HashMap<String, usize>,
     /// Not all libraries are there.
     incomplete: bool,
     finder: Finder,
@@ -132,6 +134,10 @@ impl Library {
                 } else {
                     self.names.insert(name.into(), self.definitions.len() - 1);
                 }
+                let bare = unquoted(without_comment(statement.rest)).to_owned();
+                if !bare.is_empty() {
+                    self.bare_names.entry(bare).or_insert(self.definitions.len() - 1);
+                }
             } else if let Some(current) = current {
                 self.definitions[current].statement(statement, warnings);
             } else {
@@ -152,8 +158,9 @@ impl Library {
     }
 
     fn named(&self, name: &str) -> Option<usize> {
-        let name = [name, without_comment(name)].map(unquoted);
-        name.iter().find_map(|name| self.names.get(*name)).copied()
+        let [whole, bare] = [name, without_comment(name)].map(unquoted);
+        let named = self.names.get(whole).or_else(|| self.names.get(bare));
+        named.or_else(|| self.bare_names.get(bare)).copied()
     }
 
     /// The looks of the materials of these names, and of none; adds their materials to those of a

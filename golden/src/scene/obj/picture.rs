@@ -93,7 +93,10 @@ fn too_large() -> String {
 /// Decodes a JPEG picture strictly; one that fails so is damaged, but most of it may be there.
 fn decode_jpeg(bytes: &[u8]) -> Result<Picture, String> {
     match jpeg_pixels(bytes, true) {
-        Ok(texels) => Ok(Picture { texels, damage: jpeg_end(bytes).err().map(String::from) }),
+        Ok(texels) => {
+            let damage = jpeg_damage(bytes, &texels).map(String::from);
+            Ok(Picture { texels, damage })
+        }
         Err(strict) => match jpeg_pixels(bytes, false) {
             Ok(texels) => Ok(Picture { texels, damage: Some(strict) }),
             Err(error) => Err(error),
@@ -120,22 +123,31 @@ fn jpeg_pixels(bytes: &[u8], strict: bool) -> Result<RgbaImage, String> {
     Ok(image::DynamicImage::ImageRgb8(picture).into_rgba8())
 }
 
-/// Walks over the segments of a JPEG file to its end, which decoders do not miss.
-fn jpeg_end(bytes: &[u8]) -> Result<(), &'static str> {
-    const ENDED: &str = "it ends early";
+/// What is missing of a JPEG picture that decodes to these texels. Decoders do not miss the mark of the end, and go
+/// on with zeros where the data before it ends early: with other bits there they make another picture.
+fn jpeg_damage(bytes: &[u8], texels: &RgbaImage) -> Option<&'static str> {
+    /// No mark, and neither all zeros nor all ones.
+    const FILL: [u8; 16] = [0x5a; 16];
+    let Some(end) = jpeg_end(bytes) else { return Some("it ends early") };
+    let filled = [&bytes[..end], &FILL, &bytes[end..]].concat();
+    let same = jpeg_pixels(&filled, false).is_ok_and(|other| other == *texels);
+    (!same).then_some("a part of its data is missing")
+}
+
+/// Walks over the segments of a JPEG file to the mark of its end.
+fn jpeg_end(bytes: &[u8]) -> Option<usize> {
     // Behind the mark of the start.
     let mut at = 2;
     loop {
         // Segments begin with 0xff and may be filled up with more of them.
-        let from =
-            at + bytes.get(at..).ok_or(ENDED)?.iter().position(|&b| b == 0xff).ok_or(ENDED)?;
-        at = from + bytes[from..].iter().position(|&b| b != 0xff).ok_or(ENDED)?;
+        let from = at + bytes.get(at..)?.iter().position(|&b| b == 0xff)?;
+        at = from + bytes[from..].iter().position(|&b| b != 0xff)?;
         match bytes[at] {
-            0xd9 => return Ok(()),
+            0xd9 => return Some(from),
             // Stuffed and restart marks stand in the data of a scan, which has no length.
             0 | 1 | 0xd0..=0xd8 => at += 1,
             _ => {
-                let length = bytes.get(at + 1..at + 3).ok_or(ENDED)?;
+                let length = bytes.get(at + 1..at + 3)?;
                 at += 1 + usize::from(u16::from_be_bytes([length[0], length[1]])).max(2);
             }
         }
@@ -201,6 +213,13 @@ mod tests {
         assert_eq!(decode(&longer, false).expect("whole").damage, None);
         let without_end = decode(&whole[..whole.len() - 2], false).expect("all of it");
         assert_eq!(without_end.damage.as_deref(), Some("it ends early"));
+        // The end is there, the data before it not.
+        let end = whole.len() - 2;
+        for cut in [end * 3 / 4, end - 20, end - 3] {
+            let bytes = [&whole[..cut], &whole[end..]].concat();
+            let found = decode(&bytes, false).expect("most of it").damage;
+            assert_eq!(found.as_deref(), Some("a part of its data is missing"), "{cut} of {end}");
+        }
     }
 
     #[test]

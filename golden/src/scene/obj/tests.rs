@@ -110,6 +110,19 @@ fn names_may_have_quotes_on_either_side() {
 }
 
 #[test]
+fn names_may_have_comments_on_either_side() {
+    let library = b"newmtl a # red\nKd 1 0 0\nnewmtl b #2\nKd 0 1 0\nnewmtl b\nKd 0 0 1\n";
+    let faces = ["a", "a # once more", "b", "b # blue", "b #2"];
+    let faces = faces.map(|name| format!("usemtl {name}\nf 1 2 3\n")).concat();
+    let text = format!("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}");
+    let (scene, told) = loaded(&[("m.obj", text.as_bytes()), ("m.mtl", library)]);
+    assert_eq!(told, [""; 0]);
+    let colour = |mesh: &Mesh| scene.materials[mesh.material as usize].diffuse;
+    let colours: Vec<_> = scene.meshes.iter().map(colour).collect();
+    assert_eq!(colours, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
+}
+
+#[test]
 fn a_library_that_is_none_is_one_warning() {
     let text = format!("mtllib notes.txt\n{SQUARE}usemtl m\nf 1 2 3\n");
     let told =
