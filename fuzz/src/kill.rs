@@ -56,7 +56,7 @@ const PICTURES: &str =
 const PROGRAM: &str = "wheatstone";
 const STRACE: &str = "strace";
 
-/// A place to be killed at: a call, and the how manieth of a thread.
+/// A place to be killed at: a call, and its number among the calls of that name in a thread, from 1.
 type Point = (String, u32);
 
 /// A folder tree: path and content of each file. Names that begin with a dot are not output.

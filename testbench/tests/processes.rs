@@ -14,7 +14,7 @@ struct Place(TempDir);
 /// What a Verilator must answer before it is called for a model.
 const ANSWERS: &str = "case $1 in
     --version) echo 'Verilator 5.006 2023-01-22'; exit;;
-    --getenv) echo \"$(dirname \"$0\")/root\"; exit;;
+    --getenv) echo \"$(dirname \"$0\")/share\"; exit;;
 esac\n";
 
 impl Place {
@@ -22,8 +22,8 @@ impl Place {
         let place = Place(tempfile::tempdir().expect("a folder"));
         let rtl = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("rtl");
         // Written by another program: no child of a test running beside this one may have a script open.
-        place.shell(&format!("cp -r '{}' rtl && mkdir -p bin/root/include", rtl.display()));
-        place.shell("cd bin/root/include && touch verilated.h verilated.cpp verilated_threads.cpp verilated_fst_c.cpp verilated_cov.cpp");
+        place.shell(&format!("cp -r '{}' rtl && mkdir -p bin/share/include", rtl.display()));
+        place.shell("cd bin/share/include && touch verilated.h verilated.cpp verilated_threads.cpp verilated_fst_c.cpp verilated_cov.cpp");
         place.shell("g++ -c -x c++ /dev/null -o bin/object");
         place.tool(
             "g++",
