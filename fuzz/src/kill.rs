@@ -25,29 +25,39 @@ pub struct Case {
     pub line: &'static str,
     /// A command line whose output is there before, if any.
     pub before: Option<&'static str>,
-    /// The folder with the output, if there is any.
-    pub out: Option<&'static str>,
+    /// The folder with the output.
+    pub out: &'static str,
+    /// Whether it calls other programs.
+    pub calls: bool,
 }
 
 /// All of them: packs and pictures, new and in the place of older ones, and a regression with a cold cache.
 pub const CASES: [Case; 5] = [
-    Case { name: "vectors", line: PACK, before: None, out: Some("packs") },
+    Case { name: "vectors", line: PACK, before: None, out: "packs", calls: false },
     Case {
         name: "vectors again",
         line: PACK,
         before: Some("vectors sampler --seed 2 --beats 30 --out packs"),
-        out: Some("packs"),
+        out: "packs",
+        calls: false,
     },
-    Case { name: "render", line: PICTURES, before: None, out: Some("pictures") },
+    Case { name: "render", line: PICTURES, before: None, out: "pictures", calls: false },
     Case {
         name: "render again",
         line: PICTURES,
         before: Some(
             "render --scene ratio --size 40x30 --method direct --stereo anaglyph --out pictures",
         ),
-        out: Some("pictures"),
+        out: "pictures",
+        calls: false,
     },
-    Case { name: "cosim", line: "cosim display --beats 50", before: None, out: None },
+    Case {
+        name: "cosim",
+        line: "cosim display --beats 50 --json report/report.json",
+        before: None,
+        out: "report",
+        calls: true,
+    },
 ];
 const PACK: &str = "vectors sampler --seed 1 --beats 30 --out packs";
 const PICTURES: &str =
@@ -215,7 +225,8 @@ impl Killer {
 
     fn tree(&self, case: &Case, folder: &Path) -> io::Result<Tree> {
         let mut tree = Tree::new();
-        if let Some(out) = case.out.map(|out| folder.join(out)).filter(|out| out.is_dir()) {
+        let out = folder.join(case.out);
+        if out.is_dir() {
             add(&out, &out, &mut tree)?;
         }
         Ok(tree)
@@ -232,10 +243,18 @@ fn add(root: &Path, folder: &Path, tree: &mut Tree) -> io::Result<()> {
         if entry.file_type()?.is_dir() {
             add(root, &path, tree)?;
         } else {
-            tree.insert(path.strip_prefix(root).unwrap_or(&path).to_owned(), fs::read(&path)?);
+            let name = path.strip_prefix(root).unwrap_or(&path).to_owned();
+            tree.insert(name, without_times(fs::read(&path)?));
         }
     }
     Ok(())
+}
+
+/// The lines of a report but for the times that things took.
+fn without_times(content: Vec<u8>) -> Vec<u8> {
+    let lines = content.split_inclusive(|&byte| byte == b'\n');
+    let is_time = |line: &[u8]| line.trim_ascii_start().starts_with(b"\"seconds\":");
+    lines.filter(|line| !is_time(line)).flatten().copied().collect()
 }
 
 fn names(tree: &Tree) -> String {

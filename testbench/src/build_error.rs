@@ -50,9 +50,9 @@ pub enum BuildError {
         /// The file with all of it.
         log: PathBuf,
     },
-    /// Another process builds the same and does not come to an end.
+    /// Another process builds the same and does not come to an end, or there can be no lock.
     #[error(transparent)]
-    Lock(LockError),
+    Lock(#[from] LockError),
     /// The finished model could not be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),

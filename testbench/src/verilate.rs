@@ -221,13 +221,7 @@ impl Builder {
 
     /// A lock between all that build into this cache.
     fn lock(&self, name: &str) -> Result<Lock, BuildError> {
-        let (file, limit) = (self.cache.join(name), wheatstone_process::limit());
-        Lock::take(&file, limit, |line| _ = wheatstone_process::tell(line)).map_err(|error| {
-            match error.source.kind() {
-                io::ErrorKind::TimedOut => BuildError::Lock(error),
-                _ => BuildError::Cache { path: error.file, source: error.source },
-            }
-        })
+        Ok(Lock::take(&self.cache.join(name))?)
     }
 
     /// A temporary folder in the cache.

@@ -36,8 +36,7 @@ fn run(args: &Args) -> std::io::Result<bool> {
     killer.prepare()?;
     let mut total = 0;
     for case in CASES.iter().filter(|case| names.contains(&case.name)) {
-        // Packs and pictures are made by the program alone.
-        let children = if case.out.is_none() { args.children } else { 0 };
+        let children = if case.calls { args.children } else { 0 };
         let (faults, kills) = killer.run(case, children, args.options.seed)?;
         println!("{}: {kills} kills, {} faults", case.name, faults.len());
         faults.iter().for_each(|fault| println!("  {fault}"));

@@ -1,14 +1,14 @@
-//! A lock between threads and processes that says what it waits for.
+//! Locks between threads and processes. Who waits for one is told what for, see [`on_wait`](super::on_wait).
 
+use super::waiting::Waiting;
 use crate::text::printable_path;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// After this time it is told that, and for whom, is waited.
-const PATIENCE: Duration = Duration::from_secs(3);
 /// Time between two tries.
 const PAUSE: Duration = Duration::from_millis(20);
 
@@ -29,23 +29,27 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Takes the lock that a file stands for, which is made if need be, with its folder. After some seconds `tell`
-    /// gets a line about what is waited for.
+    /// Takes the lock that a file stands for, which is made if need be, with its folder.
     ///
     /// # Errors
-    /// Where the file cannot be made or locked, and if another has it for longer than `limit`.
-    pub fn take(file: &Path, limit: Duration, tell: impl FnMut(&str)) -> Result<Lock, LockError> {
+    /// Where the file cannot be made or locked, and if another has it for too long.
+    pub fn take(file: &Path) -> Result<Lock, LockError> {
         let at = |source| LockError { file: file.to_owned(), source };
-        wait(file, PATIENCE, limit, tell).map_err(at)
+        take(file, &Waiting::usual()).map_err(at)
+    }
+
+    /// Takes the lock of a folder, by which those who put something there follow one another. On a file system without
+    /// locks everybody has it.
+    ///
+    /// # Errors
+    /// Where the folder cannot be opened, and if another has it for too long.
+    pub fn of_folder(folder: &Path) -> Result<Lock, LockError> {
+        let at = |source| LockError { file: folder.to_owned(), source };
+        of_folder(folder, &Waiting::usual()).map_err(at)
     }
 }
 
-fn wait(
-    path: &Path,
-    patience: Duration,
-    limit: Duration,
-    mut tell: impl FnMut(&str),
-) -> io::Result<Lock> {
+fn take(path: &Path, waiting: &Waiting<'_>) -> io::Result<Lock> {
     fs::create_dir_all(super::parent(path))?;
     if let Some(kind) = super::irregular(path) {
         return Err(io::Error::other(format!("expected a lock file, found {kind}; delete it")));
@@ -53,25 +57,41 @@ fn wait(
     // Not truncated before it is ours: it says who has it.
     let mut file =
         OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
-    let mut had = within(&file, patience.min(limit))?;
-    if !had && patience < limit {
-        tell(&format!("waiting for {}, which has {}", holder(&mut file), path.display()));
-        had = within(&file, limit - patience)?;
-    }
-    if !had {
-        let (holder, limit) = (holder(&mut file), limit.as_secs());
-        let message =
-            format!("{holder} has it for more than {limit} s; end it, or wait and try again");
-        return Err(io::Error::new(io::ErrorKind::TimedOut, message));
-    }
+    let whom = || format!("{}, which has {}", holder(&file), printable_path(path));
+    waiting.wait(|time| within(&file, time), whom)?;
     file.set_len(0)?;
     file.rewind()?;
     writeln!(file, "{}", std::process::id())?;
     Ok(Lock { _file: file })
 }
 
+fn of_folder(folder: &Path, waiting: &Waiting<'_>) -> io::Result<Lock> {
+    loop {
+        let file = File::open(folder)?;
+        match own(&file, folder, waiting) {
+            Ok(()) => return Ok(Lock { _file: file }),
+            // Another folder took its place meanwhile.
+            Err(error) if error.kind() == io::ErrorKind::NotFound && folder.is_dir() => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Locks what is open; an error if it is no longer what has that name.
+pub(super) fn own(opened: &File, path: &Path, waiting: &Waiting<'_>) -> io::Result<()> {
+    let whom = || format!("another process, which has {} locked", printable_path(path));
+    // Where the file system has no locks, nobody else has one either.
+    waiting.wait(|time| Ok(within(opened, time).unwrap_or(true)), whom)?;
+    let (opened, there) = (opened.metadata()?, fs::symlink_metadata(path)?);
+    if (opened.dev(), opened.ino()) == (there.dev(), there.ino()) {
+        Ok(())
+    } else {
+        Err(io::ErrorKind::NotFound.into())
+    }
+}
+
 /// Takes the lock of an open file; says whether it was to be had in this time.
-pub(super) fn within(file: &File, limit: Duration) -> io::Result<bool> {
+fn within(file: &File, limit: Duration) -> io::Result<bool> {
     let start = Instant::now();
     loop {
         match file.try_lock() {
@@ -84,7 +104,7 @@ pub(super) fn within(file: &File, limit: Duration) -> io::Result<bool> {
 }
 
 /// Who has a lock, as the file says.
-fn holder(file: &mut File) -> String {
+fn holder(mut file: &File) -> String {
     let mut text = String::new();
     let _ = file.rewind().and_then(|()| file.take(20).read_to_string(&mut text));
     match text.trim().parse::<u32>() {
@@ -98,29 +118,38 @@ fn holder(file: &mut File) -> String {
 mod tests {
     use super::*;
 
+    const AT_ONCE: Waiting<'_> =
+        Waiting { patience: Duration::ZERO, limit: Duration::ZERO, tell: &|_| () };
+
     #[test]
-    fn a_lock_is_waited_for_and_given_up() {
+    fn a_lock_is_given_up_with_the_name_of_its_holder() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a/lock");
-        let take = |limit| Lock::take(&path, limit, |_| ());
-        let first = take(Duration::ZERO).unwrap();
+        let first = take(&path, &AT_ONCE).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap().trim(), std::process::id().to_string());
-        let error = take(Duration::ZERO).unwrap_err().to_string();
-        assert!(error.contains("another thread of this process has it for more than"), "{error}");
+        let error = take(&path, &AT_ONCE).unwrap_err().to_string();
+        let expected = format!("for another thread of this process, which has {}", path.display());
+        assert!(error.contains(&expected), "{error}");
         fs::write(&path, "4000000\n").unwrap();
-        let error = take(Duration::ZERO).unwrap_err().to_string();
-        assert!(error.contains(": process 4000000 has it"), "{error}");
-
-        let mut told = Vec::new();
-        let error = wait(&path, PAUSE, PAUSE * 3, |line| told.push(line.to_owned()));
-        assert!(error.is_err());
-        let expected = format!("waiting for process 4000000, which has {}", path.display());
-        assert_eq!(told, [expected]);
+        let error = take(&path, &AT_ONCE).unwrap_err().to_string();
+        assert!(error.contains(" for process 4000000, which has "), "{error}");
         drop(first);
-        take(Duration::ZERO).unwrap();
+        take(&path, &AT_ONCE).unwrap();
         fs::remove_file(&path).unwrap();
         fs::create_dir(&path).unwrap();
-        let error = take(Duration::ZERO).unwrap_err().to_string();
+        let error = take(&path, &AT_ONCE).unwrap_err().to_string();
         assert!(error.ends_with("expected a lock file, found a folder; delete it"), "{error}");
+    }
+
+    #[test]
+    fn a_folder_is_locked_by_one_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let held = of_folder(folder.path(), &AT_ONCE).unwrap();
+        let error = of_folder(folder.path(), &AT_ONCE).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::TimedOut);
+        let expected = format!("another process, which has {} locked", folder.path().display());
+        assert!(error.to_string().contains(&expected), "{error}");
+        drop(held);
+        of_folder(folder.path(), &AT_ONCE).unwrap();
     }
 }

@@ -10,6 +10,7 @@ mod read;
 mod scratch;
 mod set;
 mod temporary;
+mod waiting;
 mod write;
 
 pub use lock::{Lock, LockError};
@@ -18,6 +19,7 @@ pub use read::{irregular, read, read_own, ReadError, OWN_LIMIT};
 pub use scratch::{Scratch, Tidy};
 pub use set::Set;
 pub use temporary::remove_temporary;
+pub use waiting::on_wait;
 pub use write::{replaced, write, WriteError};
 
 use std::fs::{File, FileType};

@@ -1,19 +1,17 @@
 //! Files and folders that are not left behind: temporary ones, also of killed processes, and empty ones.
 
-use super::lock::within;
+use super::lock::own;
 use super::temporary::Temporary;
+use super::waiting::Waiting;
 use super::WriteError;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io;
-use std::os::unix::fs::{MetadataExt, OpenOptionsExt, PermissionsExt};
+use std::os::unix::fs::{OpenOptionsExt, PermissionsExt};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 use tempfile::{NamedTempFile, TempDir};
 
 const PREFIX: &str = ".wheatstone-";
 const SUFFIX: &str = ".part";
-/// Locks of temporary files and folders are held for moments by anybody else.
-const LIMIT: Duration = Duration::from_secs(30);
 
 /// A temporary folder of this process alone, removed when dropped.
 ///
@@ -45,7 +43,7 @@ impl Scratch {
             let (temporary, folder) =
                 Temporary::make(|| builder.tempdir_in(parent), |folder| folder.path())?;
             let lock = File::open(folder.path());
-            match lock.and_then(|lock| own(&lock, folder.path()).map(|_| lock)) {
+            match lock.and_then(|lock| own(&lock, folder.path(), &Waiting::usual()).map(|_| lock)) {
                 Ok(lock) => return Ok(Scratch { folder, _temporary: temporary, _lock: lock }),
                 // Another process took it for one that belongs to nobody.
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
@@ -74,7 +72,7 @@ pub(super) fn file(parent: &Path) -> io::Result<(Temporary, NamedTempFile)> {
         builder.prefix(PREFIX).suffix(SUFFIX).permissions(mode);
         let (temporary, file) =
             Temporary::make(|| builder.tempfile_in(parent), |file| file.path())?;
-        match own(file.as_file(), file.path()) {
+        match own(file.as_file(), file.path(), &Waiting::usual()) {
             Ok(()) => return Ok((temporary, file)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(error),
@@ -85,20 +83,6 @@ pub(super) fn file(parent: &Path) -> io::Result<(Temporary, NamedTempFile)> {
 /// Whether a name is that of something temporary.
 pub(super) fn is_temporary(name: &str) -> bool {
     name.starts_with(PREFIX) && name.ends_with(SUFFIX)
-}
-
-/// Locks what is open; an error if it is no longer what has that name.
-pub(super) fn own(opened: &File, path: &Path) -> io::Result<()> {
-    // Where the file system has no locks, nobody sweeps either. One that is not given back is not waited for.
-    if let Ok(false) = within(opened, LIMIT) {
-        return Err(io::Error::new(io::ErrorKind::TimedOut, "another process has it locked"));
-    }
-    let (opened, there) = (opened.metadata()?, fs::symlink_metadata(path)?);
-    if (opened.dev(), opened.ino()) == (there.dev(), there.ino()) {
-        Ok(())
-    } else {
-        Err(io::ErrorKind::NotFound.into())
-    }
 }
 
 /// Removes what dead processes left. What cannot be removed now, as a child of the dead may still write

@@ -1,7 +1,7 @@
 //! Files of one folder that belong together.
 
-use super::scratch::{is_temporary, own};
-use super::{publish, Scratch, Tidy, WriteError};
+use super::scratch::is_temporary;
+use super::{publish, Lock, Scratch, Tidy, WriteError};
 use rustix::fs::{renameat_with, RenameFlags, CWD};
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
@@ -106,7 +106,7 @@ impl Set {
             return Ok(Replaced::New);
         }
         fs::create_dir_all(place)?;
-        let _lock = lock(place)?;
+        let _lock = Lock::of_folder(place).map_err(|error| error.source)?;
         let old = fs::metadata(place)?;
         if beside(place).is_none() || like(new, &old).is_err() {
             return Ok(Replaced::Not);
@@ -208,19 +208,6 @@ fn like(folder: &Path, other: &Metadata) -> io::Result<()> {
         std::os::unix::fs::chown(folder, Some(other.uid()), Some(other.gid()))?;
     }
     fs::set_permissions(folder, other.permissions())
-}
-
-/// The lock of a folder, by which sets follow one another. It is held for moments.
-fn lock(folder: &Path) -> io::Result<File> {
-    loop {
-        let opened = File::open(folder)?;
-        match own(&opened, folder) {
-            Ok(()) => return Ok(opened),
-            // Another set took its place meanwhile.
-            Err(error) if error.kind() == io::ErrorKind::NotFound && folder.is_dir() => {}
-            Err(error) => return Err(error),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,18 +1,18 @@
 //! Writing a file that is whole or not there.
 
 use super::scratch::{self, Tidy};
+use super::waiting::Waiting;
 use crate::text::printable_path;
 use rustix::event::{poll, PollFd, PollFlags, Timespec};
 use rustix::fs::OFlags;
-use std::fs::{self, File, Metadata, OpenOptions};
+use std::fs::{self, Metadata, OpenOptions};
 use std::io::{self, Write};
+use std::os::fd::AsFd;
 use std::os::unix::fs::{FileTypeExt, MetadataExt, OpenOptionsExt};
 use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// How long a pipe, device or socket may take no byte.
-const PATIENCE: Duration = Duration::from_secs(60);
 /// Links to links that are followed, as many as Linux does.
 const LINKS: usize = 40;
 
@@ -37,7 +37,8 @@ pub struct WriteError {
 /// A device, pipe or socket, and the file that is standard output or error, is written to, not replaced.
 ///
 /// # Errors
-/// Where the file cannot be written; of a pipe that nobody reads, and of one that takes nothing for a minute.
+/// Where the file cannot be written; of a pipe that nobody reads, and of one that takes nothing for too long, see
+/// [`on_wait`](super::on_wait).
 pub fn write(file: &Path, content: &[u8]) -> Result<(), WriteError> {
     put(file, content).map_err(|source| WriteError { file: file.to_owned(), source })
 }
@@ -85,7 +86,7 @@ fn target(file: &Path) -> io::Result<Target> {
 }
 
 /// Whether a file is the one that an open stream writes to.
-fn is(file: &Metadata, stream: impl std::os::fd::AsFd) -> bool {
+fn is(file: &Metadata, stream: impl AsFd) -> bool {
     rustix::fs::fstat(stream).is_ok_and(|s| (s.st_dev, s.st_ino) == (file.dev(), file.ino()))
 }
 
@@ -118,40 +119,46 @@ fn replace(file: &Path, content: &[u8]) -> io::Result<()> {
 /// Writes to what is no regular file, without waiting for ever.
 fn feed(file: &Path, there: &Metadata, content: &[u8]) -> io::Result<()> {
     if there.file_type().is_socket() {
-        let mut socket = UnixStream::connect(file)?;
-        socket.set_write_timeout(Some(PATIENCE))?;
-        return pour(&mut socket, content);
+        let socket = UnixStream::connect(file)?;
+        socket.set_nonblocking(true)?;
+        return push(socket, file, content);
     }
     let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
     let opened = OpenOptions::new().write(true).custom_flags(flags.bits() as i32).open(file);
-    let mut opened = opened.map_err(|error| match error.raw_os_error() {
+    let opened = opened.map_err(|error| match error.raw_os_error() {
         Some(code) if code == rustix::io::Errno::NXIO.raw_os_error() => {
             io::Error::other("no program reads from it")
         }
         _ => error,
     })?;
-    let mut rest = content;
+    push(opened, file, content)
+}
+
+/// Writes all to what does not block.
+fn push(mut stream: impl Write + AsFd, file: &Path, mut rest: &[u8]) -> io::Result<()> {
+    let whom = || format!("the reader of {}, which reads nothing", printable_path(file));
     while !rest.is_empty() {
-        match opened.write(rest) {
+        match stream.write(rest) {
             Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
             Ok(written) => rest = &rest[written..],
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) if error.kind() == io::ErrorKind::WouldBlock => wait(&opened)?,
+            Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
+                Waiting::usual().wait(|time| takes_more(&stream, time), whom)?;
+            }
             Err(error) => return Err(error),
         }
     }
     Ok(())
 }
 
-/// Waits until a pipe or device takes more.
-fn wait(file: &File) -> io::Result<()> {
-    let time = Timespec { tv_sec: PATIENCE.as_secs() as i64, tv_nsec: 0 };
-    match poll(&mut [PollFd::new(file, PollFlags::OUT)], Some(&time)) {
-        Ok(0) => {
-            let message = format!("its reader has read nothing for {} s", PATIENCE.as_secs());
-            Err(io::Error::new(io::ErrorKind::TimedOut, message))
-        }
-        Ok(_) | Err(rustix::io::Errno::INTR) => Ok(()),
+/// Waits until a pipe, device or socket takes more; says whether it did in this time.
+fn takes_more(stream: &impl AsFd, limit: Duration) -> io::Result<bool> {
+    let seconds = limit.as_secs().try_into().unwrap_or(i64::MAX);
+    let time = Timespec { tv_sec: seconds, tv_nsec: limit.subsec_nanos().into() };
+    match poll(&mut [PollFd::new(stream, PollFlags::OUT)], Some(&time)) {
+        Ok(number) => Ok(number > 0),
+        // The write that follows finds out.
+        Err(rustix::io::Errno::INTR) => Ok(true),
         Err(error) => Err(error.into()),
     }
 }

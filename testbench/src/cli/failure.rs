@@ -13,7 +13,8 @@ use crate::synth::SynthError;
 use crate::tools::ToolError;
 use crate::verification::VerificationError;
 use crate::BuildError;
-use thiserror::Error;
+use std::error::Error;
+use std::io;
 use wheatstone_golden::files::WriteError;
 use wheatstone_golden::scene::SceneError;
 use wheatstone_process::ProcessError;
@@ -36,14 +37,14 @@ pub(super) const STATUSES: &str = "Exit status:
   1    a mismatch, or worse than recorded
   2    bad input, or it cannot be read or written
   3    a tool is missing, too old, or does not run
-  4    the run ended before its work was done: a tool or a model did not end in time, or a model
-       ended or crashed the program
+  4    the run ended before its work was done: a tool, a model or another run that holds a lock
+       did not end in time, or a model ended or crashed the program
   129, 130, 143
        ended by SIGHUP, SIGINT or SIGTERM; programs that it had started are ended too, and nothing
        half done is left";
 
 /// Why a command could not do its work.
-#[derive(Debug, Error)]
+#[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
     #[error(transparent)]
     Setting(#[from] SettingError),
@@ -82,6 +83,7 @@ pub(super) enum Failure {
 impl Failure {
     pub(super) fn status(&self) -> u8 {
         match self {
+            _ if has_waited(self) => UNFINISHED,
             Failure::Baseline(BaselineError::Differs { .. }) => MISMATCH,
             Failure::Tool(_)
             | Failure::Replay(ReplayError::Tool(_))
@@ -106,11 +108,16 @@ impl Failure {
     }
 }
 
+/// Whether another process was waited for, for too long.
+fn has_waited(error: &(dyn Error + 'static)) -> bool {
+    let is_own = |error: &io::Error| error.kind() == io::ErrorKind::TimedOut;
+    error.downcast_ref().is_some_and(is_own) || error.source().is_some_and(has_waited)
+}
+
 fn of_build(error: &BuildError) -> u8 {
     match error {
         BuildError::Tool(_) => MISSING_TOOL,
         BuildError::Process(error) => of_process(error),
-        BuildError::Lock(_) => UNFINISHED,
         _ => BAD_INPUT,
     }
 }

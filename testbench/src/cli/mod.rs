@@ -41,7 +41,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
-use wheatstone_golden::files::WriteError;
+use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::formats::Formats;
 use wheatstone_golden::projection::Kind;
 use wheatstone_golden::scene::wires::wire_frame;
@@ -206,6 +206,7 @@ pub fn main() -> ExitCode {
         return ExitCode::from(supervise::supervise());
     }
     wheatstone_process::on_tell(tell_line);
+    files::on_wait(wheatstone_process::limit, tell_line);
     wheatstone_process::on_signal(|signal| {
         clear_line();
         watch::end(wheatstone_process::signal_status(signal))
