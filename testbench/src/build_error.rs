@@ -33,8 +33,13 @@ pub enum BuildError {
         source: io::Error,
     },
     /// The module's ports are not those of its interface.
-    #[error(transparent)]
-    Port(#[from] PortError),
+    #[error("{}: {source}", printable_path(.file))]
+    Port {
+        /// Its Verilog.
+        file: PathBuf,
+        /// Which port.
+        source: PortError,
+    },
     /// A tool did not run, or not to its end.
     #[error(transparent)]
     Process(#[from] ProcessError),
@@ -50,12 +55,17 @@ pub enum BuildError {
         /// The file with all of it.
         log: PathBuf,
     },
-    /// Another process builds the same and does not come to an end, or there can be no lock.
+    /// Another process builds the same and does not come to an end.
     #[error(transparent)]
-    Lock(#[from] LockError),
+    Lock(LockError),
     /// The finished model could not be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),
+}
+
+/// The file of a module.
+pub(crate) fn verilog(rtl: &Path, module: &str) -> PathBuf {
+    rtl.join(module).with_extension("v")
 }
 
 impl BuildError {
@@ -64,7 +74,7 @@ impl BuildError {
         match self {
             BuildError::Failed { tool, module, lines, log } => {
                 let mut lines = sources::named_from(rtl, &lines);
-                let file = rtl.join(&module).with_extension("v").display().to_string();
+                let file = verilog(rtl, &module).display().to_string();
                 if !lines.contains(&file) {
                     // Where a module is missing, Verilator names no file.
                     lines += &format!("\n(its Verilog: {file})");

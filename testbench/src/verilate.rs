@@ -8,7 +8,7 @@
 
 mod runtime;
 
-use crate::build_error::{BuildError, LoadError};
+use crate::build_error::{verilog, BuildError, LoadError};
 use crate::cover::Collector;
 use crate::kept::{self, entry, short, Kept};
 use crate::layout::{Layout, Probe};
@@ -221,7 +221,10 @@ impl Builder {
 
     /// A lock between all that build into this cache.
     fn lock(&self, name: &str) -> Result<Lock, BuildError> {
-        Ok(Lock::take(&self.cache.join(name))?)
+        Lock::take(&self.cache.join(name)).map_err(|error| match error.source.kind() {
+            io::ErrorKind::TimedOut => BuildError::Lock(error),
+            _ => BuildError::Cache { path: error.file, source: error.source },
+        })
     }
 
     /// A temporary folder in the cache.
@@ -324,7 +327,8 @@ impl Job<'_> {
         let header = temporary.join("cpp").join(format!("{PREFIX}.h"));
         let text = run(command, "verilator", module, &log, &header, |text| !text.is_empty())?;
         let text = String::from_utf8_lossy(&text);
-        ports::check(module, &self.layout.signals[..self.layout.ports], &text)?;
+        ports::check(module, &self.layout.signals[..self.layout.ports], &text)
+            .map_err(|source| BuildError::Port { file: verilog(self.spec.rtl, module), source })?;
 
         let files = cpp_files(&temporary.join("cpp"))?;
         let unit = shim::head(&files, key) + &self.shim;

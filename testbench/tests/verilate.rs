@@ -126,7 +126,10 @@ fn ports_must_be_those_of_the_interface() {
         let mut interface = adder(0);
         change(&mut interface);
         match counting.build(&interface, &fixtures()) {
-            Err(BuildError::Port(error)) => error,
+            Err(BuildError::Port { file, source }) => {
+                assert_eq!(file, fixtures().join("sam_adder.v"));
+                source
+            }
             other => panic!("{:?}", other.map(|_| ())),
         }
     };
