@@ -40,8 +40,8 @@ const FLOOD: u64 = 256 << 20;
 pub const PATIENCE: Duration = Duration::from_secs(10);
 /// How often the processor time of a limited program is looked up.
 const LOOK: Duration = Duration::from_millis(200);
-/// Time that the streams of a program may stay open after its group was killed.
-const DRAIN: Duration = Duration::from_secs(1);
+/// Time that the streams of a program may stay open after its group was killed; a busy machine needs some of it.
+const DRAIN: Duration = Duration::from_secs(10);
 
 /// Why a program gave no result.
 #[derive(Debug, Error)]
