@@ -48,10 +48,51 @@ fn parent(file: &Path) -> &Path {
     }
 }
 
+/// Brings what an open file or folder has to the disk.
+fn sync(opened: &File) -> io::Result<()> {
+    opened.sync_all()?;
+    #[cfg(test)]
+    synced::note(opened);
+    Ok(())
+}
+
 /// Sees to it that the names in a folder outlast a loss of power, where its file system can do that.
 fn sync_folder(folder: &Path) -> io::Result<()> {
-    match File::open(folder)?.sync_all() {
+    match sync(&File::open(folder)?) {
         Err(error) if error.kind() == io::ErrorKind::InvalidInput => Ok(()),
         result => result,
+    }
+}
+
+/// What this thread brought to the disk, by the names that it had then.
+#[cfg(test)]
+mod synced {
+    use super::scratch::is_temporary;
+    use std::cell::RefCell;
+    use std::fs::{self, File};
+    use std::os::fd::AsRawFd;
+    use std::path::{Path, PathBuf};
+
+    thread_local! {
+        static SYNCED: RefCell<Vec<PathBuf>> = const { RefCell::new(Vec::new()) };
+    }
+
+    pub fn note(opened: &File) {
+        let name = fs::read_link(format!("/proc/self/fd/{}", opened.as_raw_fd())).unwrap();
+        SYNCED.with_borrow_mut(|synced| synced.push(name));
+    }
+
+    /// The names below a folder since the last call, with `*` for each temporary name.
+    pub fn take(folder: &Path) -> Vec<String> {
+        let folder = fs::canonicalize(folder).unwrap();
+        let part = |part: &std::ffi::OsStr| match part.to_str().unwrap() {
+            part if is_temporary(part) => "*".to_owned(),
+            part => part.to_owned(),
+        };
+        let name = |name: PathBuf| {
+            let parts = name.strip_prefix(&folder).unwrap().iter().map(part);
+            parts.collect::<Vec<_>>().join("/")
+        };
+        SYNCED.take().into_iter().map(name).collect()
     }
 }

@@ -78,7 +78,7 @@ fn sync(folder: &Path) -> io::Result<()> {
         if kind.is_dir() {
             sync(&entry.path())?;
         } else if kind.is_file() {
-            File::open(entry.path())?.sync_all()?;
+            super::sync(&File::open(entry.path())?)?;
         }
     }
     super::sync_folder(folder)
@@ -116,6 +116,15 @@ mod tests {
         assert!(publish(made(parent.path(), "3"), &at("file")).is_err());
         assert!(publish(made(parent.path(), "3"), &at("none/x")).is_err());
         assert_eq!(names(parent.path()), ["file", "link", "x"]);
+    }
+
+    #[test]
+    fn a_folder_is_on_the_disk_before_it_has_its_name() {
+        let parent = tempfile::tempdir().unwrap();
+        for content in ["old", "new"] {
+            publish(made(parent.path(), content), &parent.path().join("x")).unwrap();
+            assert_eq!(super::super::synced::take(parent.path()), ["*/sub/file", "*/sub", "*", ""]);
+        }
     }
 
     #[test]

@@ -79,7 +79,9 @@ impl Set {
         names.sort_by_key(|name| name == main);
         for name in &names {
             let file = self.path().join(name);
-            File::open(&file).and_then(|file| file.sync_all()).map_err(at(&self.named(&file)))?;
+            File::open(&file)
+                .and_then(|file| super::sync(&file))
+                .map_err(at(&self.named(&file)))?;
         }
         let own: BTreeSet<&OsStr> = names.iter().map(OsString::as_os_str).collect();
         let is_own = |name: &OsStr| own.contains(name) || name.to_str().is_some_and(&stale);
@@ -267,6 +269,20 @@ mod tests {
         assert!(error.contains("p/sub: cannot be written: is a directory"), "{error}");
         assert_eq!(content(&p), ["sub=folder", "x=1", "z=1"]);
         assert_eq!(content(folder.path()), ["p=folder"]);
+    }
+
+    #[test]
+    fn a_set_is_on_the_disk_before_it_has_its_names() {
+        let folder = tempfile::tempdir().unwrap();
+        let synced = |files: &[(&str, &str)]| {
+            put(&folder.path().join("p"), files, &[]).unwrap();
+            super::super::synced::take(folder.path())
+        };
+        // A new folder, one that is exchanged, and one with a folder in it.
+        assert_eq!(synced(&[("x", "1"), ("y", "1")]), ["*/y", "*/x", "*", ""]);
+        assert_eq!(synced(&[("x", "2"), ("y", "2")]), ["*/y", "*/x", "*", "*", ""]);
+        fs::create_dir(folder.path().join("p/sub")).unwrap();
+        assert_eq!(synced(&[("x", "3"), ("y", "3")]), ["p/*/y", "p/*/x", "p", "p"]);
     }
 
     #[test]

@@ -111,7 +111,7 @@ fn replace(file: &Path, content: &[u8]) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     let (_mark, mut temporary) = scratch::file(folder)?;
     temporary.write_all(content)?;
-    temporary.as_file().sync_all()?;
+    super::sync(temporary.as_file())?;
     temporary.persist(file).map_err(|error| error.error)?;
     super::sync_folder(folder)
 }
@@ -238,6 +238,15 @@ mod tests {
         let mut said = String::new();
         io::Read::read_to_string(&mut listener.accept().unwrap().0, &mut said).unwrap();
         assert_eq!(said, "content");
+    }
+
+    #[test]
+    fn a_file_is_on_the_disk_before_it_has_its_name() {
+        let folder = tempfile::tempdir().unwrap();
+        for content in ["old", "new"] {
+            write(&folder.path().join("a/file"), content.as_bytes()).unwrap();
+            assert_eq!(super::super::synced::take(folder.path()), ["a/*", "a"]);
+        }
     }
 
     #[test]
