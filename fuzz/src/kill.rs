@@ -1,8 +1,10 @@
 //! The program killed: at every call by which it changes files, and at random ones of the programs that it calls.
 //!
 //! `strace` kills. A run is first counted, then made again once for each call, and killed there. Afterwards its output must
-//! be whole, the old one or the new one or none, and the next run must work and give what an undisturbed one gives.
+//! be whole, the old one or the new one or none, and the next run must work and give what an undisturbed one gives. No file
+//! that the program itself writes may get its name before it is on the disk: no kill shows that, but the log of its calls.
 
+use crate::log::{early, places, Point};
 use crate::program::run;
 use fastrand::Rng;
 use std::collections::{BTreeMap, BTreeSet};
@@ -66,9 +68,6 @@ const PICTURES: &str =
 const PROGRAM: &str = "wheatstone";
 const STRACE: &str = "strace";
 
-/// A place to be killed at: a call, and its number among the calls of that name in a thread, from 1.
-type Point = (String, u32);
-
 /// A folder tree: path and content of each file. Names that begin with a dot are not output.
 type Tree = BTreeMap<PathBuf, Vec<u8>>;
 
@@ -99,7 +98,8 @@ impl Killer {
         }
         let new = self.tree(case, whole.path())?;
         let mut faults = Vec::new();
-        let points = self.points(case, &["-b", "execve"])?;
+        let (points, early) = self.points(case, &["-b", "execve"])?;
+        faults.extend(early);
         for point in &points {
             let fault = self.kill(case, point, &["-b", "execve"], [&old, &new])?;
             faults.extend(fault.map(|what| format!("{} {}: {what}", point.0, point.1)));
@@ -107,7 +107,7 @@ impl Killer {
         let mut killed = points.len();
         if children > 0 {
             let own: BTreeSet<Point> = points.into_iter().collect();
-            let all = self.points(case, &[])?;
+            let (all, _) = self.points(case, &[])?;
             let others: Vec<Point> = all.into_iter().filter(|point| !own.contains(point)).collect();
             let mut rng = Rng::with_seed(seed);
             for _ in 0..if others.is_empty() { 0 } else { children } {
@@ -181,18 +181,19 @@ impl Killer {
         command
     }
 
-    /// The places where a case can be killed.
-    fn points(&self, case: &Case, options: &[&str]) -> io::Result<Vec<Point>> {
+    /// The places where a case can be killed, and the files that got their names too early.
+    fn points(&self, case: &Case, options: &[&str]) -> io::Result<(Vec<Point>, Vec<String>)> {
         let folder = self.folder(case)?;
         let log = self.scratch.join("log");
         let trace = format!("trace={CALLS}");
         let file = log.to_string_lossy();
-        let options = [options, &["-e", &trace, "-o", &file]].concat();
+        let options = [options, &["-y", "-e", &trace, "-o", &file]].concat();
         let output = run(STRACE, &mut self.strace(case, &options, folder.path()))?;
         if !output.status.success() {
             return Err(io::Error::other(format!("strace: {}", said(&output))));
         }
-        Ok(places(&String::from_utf8_lossy(&fs::read(&log)?)))
+        let log = String::from_utf8_lossy(&fs::read(&log)?).into_owned();
+        Ok((places(&log), early(&log, &fs::canonicalize(folder.path())?)))
     }
 
     /// Kills a run at a point; what is wrong then.
@@ -265,44 +266,4 @@ fn names(tree: &Tree) -> String {
 
 fn said(output: &Output) -> String {
     output.said().lines().take(6).collect::<Vec<_>>().join("\n")
-}
-
-/// The places in a log: how often each thread makes a call. Files that are opened for reading do not count as such,
-/// but strace counts them.
-fn places(log: &str) -> Vec<Point> {
-    let mut counts: BTreeMap<(&str, &str), u32> = BTreeMap::new();
-    let mut places = BTreeSet::new();
-    for line in log.lines() {
-        let Some((thread, rest)) = line.trim().split_once(char::is_whitespace) else { continue };
-        let Some((call, arguments)) = rest.trim_start().split_once('(') else { continue };
-        if call.is_empty() || !call.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
-        {
-            continue;
-        }
-        let count = counts.entry((thread, call)).or_default();
-        *count += 1;
-        if call != "openat"
-            || ["O_CREAT", "O_WRONLY", "O_RDWR"].iter().any(|w| arguments.contains(w))
-        {
-            places.insert((call.to_owned(), *count));
-        }
-    }
-    places.into_iter().collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn places_are_read_from_a_log() {
-        let log = "12  openat(AT_FDCWD, \"/lib\", O_RDONLY|O_CLOEXEC) = 3\n\
-             12  openat(AT_FDCWD, \"f\", O_WRONLY|O_CREAT, 0666) = 3\n12  write(3, \"a\", 1) = 1\n\
-             13  write(3, \"openat(\", 7) = 7\n13  write(3, <unfinished ...>\n12  --- SIGCHLD {si_signo=1} ---\n\
-             13  <... write resumed>) = 1\n12  fsync(3) = 0\n12  +++ exited with 0 +++\n";
-        let place = |call: &str, number| (call.to_owned(), number);
-        let expected =
-            [place("fsync", 1), place("openat", 2), place("write", 1), place("write", 2)];
-        assert_eq!(places(log), expected);
-    }
 }

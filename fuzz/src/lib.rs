@@ -7,6 +7,7 @@
 mod judge;
 pub mod kill;
 pub mod kinds;
+mod log;
 mod mutate;
 pub mod program;
 
