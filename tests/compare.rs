@@ -7,10 +7,9 @@ use wheatstone_golden::projection::Kind;
 use wheatstone_golden::quality::Quality;
 use wheatstone_golden::scene::{open, open_projected};
 use wheatstone_golden::stereo::Job;
+use wheatstone_golden::text::Grouped;
 use wheatstone_golden::work::{Unmetered, Work};
-use wheatstone_studies::compare::{
-    compare, error_picture, json, table, Grouped, Judged, Timed, METHODS,
-};
+use wheatstone_studies::compare::{compare, error_picture, json, table, Judged, Timed, METHODS};
 use wheatstone_studies::prepared::Prepared;
 use wheatstone_tests::folder;
 

@@ -34,6 +34,7 @@ pub mod pipeline;
 #[cfg(feature = "std")]
 pub mod primary;
 #[cfg(feature = "std")]
+pub mod progress;
 pub mod projection;
 #[cfg(feature = "std")]
 pub mod quality;

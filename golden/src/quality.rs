@@ -4,6 +4,7 @@ use crate::direct::depth_at;
 use crate::formats::{Eye, Formats, Rgba};
 use crate::frame::{Frame, NO_ID};
 use crate::picture::{colour_picture, psnr};
+use crate::progress::Stage;
 use crate::setup::{Attributes, Linear, Outline, Placement};
 use crate::stereo::{pieces, Job};
 use std::collections::{HashMap, HashSet};
@@ -30,6 +31,7 @@ pub struct Quality {
 impl Quality {
     /// Compares an eye's frame, as a job arranges it on its display, with the direct view.
     pub fn of(job: &Job, eye: Eye, frame: &Frame, direct: &Frame) -> Quality {
+        let _stage = Stage::new(format!("comparing the {} view with the direct one", eye.name()));
         let placement = Placement::new(&job.planner(false), eye);
         let seen: Vec<Option<usize>> = (0..direct.colour.len())
             .map(|n| {

@@ -9,6 +9,7 @@ use crate::pipeline::minimal::Minimal;
 use crate::pipeline::observer::{Blind, Observer};
 use crate::pipeline::{Edges, Output, PrimaryBeat, Setup};
 use crate::primary::{Counts, Primary, Sink};
+use crate::progress::over;
 use crate::scene::Geometry;
 use crate::setup::{Options, Outline, Planner, Polygon};
 use crate::texture::{Lookup, Texture};
@@ -97,8 +98,11 @@ impl Job<'_> {
             lookup: self.lookup,
         };
         let mut frame = Frame::new(self.width, self.height, self.background);
-        pieces(self.polygons)
-            .for_each(|polygon| direct.draw_metered(&polygon, eye, &mut frame, meter));
+        let what = match eye {
+            Eye::Left => "drawing the left view directly",
+            Eye::Right => "drawing the right view directly",
+        };
+        self.pieces(what).for_each(|polygon| direct.draw_metered(&polygon, eye, &mut frame, meter));
         if self.scissor != Scissor::default() {
             // Pixels do not depend on each other: clearing these is dropping all that came there.
             frame.clear_columns(|x| !self.scissor.contains(eye, x), self.background);
@@ -109,7 +113,8 @@ impl Job<'_> {
     /// Sends the job's polygons through a primary pipeline into a sink.
     pub fn run(&self, minimal: bool, sink: &mut impl Sink) -> Counts {
         let mut primary = Primary::new(self.planner(minimal), self.textures, self.lookup);
-        pieces(self.polygons).for_each(|polygon| primary.draw(&polygon, sink));
+        let what = if minimal { "running the minimal system" } else { "running the hybrid" };
+        self.pieces(what).for_each(|polygon| primary.draw(&polygon, sink));
         primary.counts
     }
 
@@ -117,8 +122,13 @@ impl Job<'_> {
     pub fn planned(&self, minimal: bool) -> Counts {
         let planner = self.planner(minimal);
         let mut counts = Counts::default();
-        pieces(self.polygons).for_each(|polygon| counts.note(&planner.plan(&polygon)));
+        self.pieces("planning").for_each(|polygon| counts.note(&planner.plan(&polygon)));
         counts
+    }
+
+    /// The polygons as they are drawn; it is noted how many of them are done.
+    fn pieces(&self, what: &str) -> impl Iterator<Item = Cow<'_, Polygon>> {
+        over(what, "polygons", self.polygons).flat_map(in_pieces)
     }
 
     /// Draws both views by a system.
@@ -139,14 +149,16 @@ impl Job<'_> {
 /// The polygons as they are drawn: one with more than three corners that snapping has made concave
 /// in either view is given in triangles.
 pub fn pieces(polygons: &[Polygon]) -> impl Iterator<Item = Cow<'_, Polygon>> {
-    polygons.iter().flat_map(|polygon| {
-        let corners = polygon.vertices.len();
-        let convex = || Eye::BOTH.iter().all(|&eye| Outline::new(polygon, eye).is_convex());
-        if corners <= 3 || convex() {
-            return vec![Cow::Borrowed(polygon)];
-        }
-        polygon.fan().map(Cow::Owned).collect()
-    })
+    polygons.iter().flat_map(in_pieces)
+}
+
+fn in_pieces(polygon: &Polygon) -> Vec<Cow<'_, Polygon>> {
+    let corners = polygon.vertices.len();
+    let convex = || Eye::BOTH.iter().all(|&eye| Outline::new(polygon, eye).is_convex());
+    if corners <= 3 || convex() {
+        return vec![Cow::Borrowed(polygon)];
+    }
+    polygon.fan().map(Cow::Owned).collect()
 }
 
 /// Either system, with one way to feed it.

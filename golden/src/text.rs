@@ -4,6 +4,7 @@
 //! decoded text has LF alone, so that `str::lines` and every reader count the same lines as an
 //! editor. Text in UTF-16 or UTF-32 is refused by that name.
 
+use std::fmt;
 use std::path::Path;
 
 /// Most characters of untrusted text in a message.
@@ -103,6 +104,19 @@ pub fn printable_path(path: &Path) -> String {
         format!("…{end}")
     } else {
         end
+    }
+}
+
+/// A number with its thousands apart.
+#[derive(Clone, Copy, Debug)]
+pub struct Grouped(pub u64);
+
+impl fmt::Display for Grouped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 < 1000 {
+            return write!(f, "{}", self.0);
+        }
+        write!(f, "{},{:03}", Grouped(self.0 / 1000), self.0 % 1000)
     }
 }
 

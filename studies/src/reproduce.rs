@@ -7,6 +7,7 @@ use serde_json::json;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use wheatstone_golden::files::{self, Set, WriteError};
+use wheatstone_golden::progress::Stage;
 
 /// What is told while experiments run.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +60,7 @@ pub fn run(
     let mut reports = Vec::new();
     for (experiment, set) in experiments.iter().zip(sets?) {
         tell(Event::Begin(experiment));
+        let _stage = Stage::new(format!("computing {}", experiment.name));
         let start = Instant::now();
         let named = |error| match error {
             StudyError::Write(error) => {

@@ -22,6 +22,7 @@ use super::vector::{dot, extent, outward, sub, Vec3};
 use super::Scene;
 use crate::formats::{Eye, Formats, Rgba};
 use crate::frame::Scissor;
+use crate::progress::over;
 use crate::setup::{Eyes, Polygon, Vertex};
 use crate::texture::Texture;
 use std::rc::Rc;
@@ -141,7 +142,8 @@ impl<'a> Builder<'a> {
         let mut shadings: Vec<Shading> = partitions.iter().map(shading).collect();
         self.counts.triangles += mesh.triangles.len();
         self.counts.faces += mesh.faces.len();
-        for (n, triangle) in mesh.triangles.iter().enumerate() {
+        let triangles = over("projecting", "triangles", &mesh.triangles);
+        for (n, triangle) in triangles.enumerate() {
             let texels = self.texels(mesh, triangle, texture);
             let corners = [0, 1, 2].map(|k| Corner {
                 position: mesh.positions[triangle[k] as usize],
@@ -159,7 +161,7 @@ impl<'a> Builder<'a> {
             );
         }
         let first_face = first_id + mesh.triangle_id_count() as u32;
-        for (n, face) in mesh.faces.iter().enumerate() {
+        for (n, face) in over("projecting", "faces", &mesh.faces).enumerate() {
             let corner =
                 |&k: &u32| Corner { position: mesh.positions[k as usize], ..Corner::default() };
             let corners: Vec<Corner> = face.iter().map(corner).collect();

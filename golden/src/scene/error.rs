@@ -2,6 +2,7 @@
 
 use super::locate::Locator;
 use crate::files::{self, ReadError};
+use crate::progress::Stage;
 use crate::text::{self, printable, printable_path, TextError};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -168,8 +169,14 @@ pub fn check_size(width: u32, height: u32, limit: u32) -> Result<(), SceneError>
 
 /// The bytes of a file of at most [`FILE_LIMIT`] bytes.
 pub fn read(file: &Path) -> Result<Vec<u8>, SceneError> {
+    let _reading = reading(file);
     files::read(file, FILE_LIMIT)
         .map_err(|ReadError { file, source }| SceneError::Read { file, source })
+}
+
+/// Notes that a file is read, until this is dropped.
+pub(super) fn reading(file: &Path) -> Stage {
+    Stage::new(format!("reading {}", printable_path(file)))
 }
 
 /// The text of a file in UTF-8.

@@ -11,7 +11,7 @@
 //!   the light, without ambient light (section "Shading"; a rig file may change the light);
 //! - looked at as by the authors: [`physical_rig`].
 
-use super::error::{read, read_text, InputError, SceneError, COORDINATE_LIMIT};
+use super::error::{read, read_text, reading, InputError, SceneError, COORDINATE_LIMIT};
 use super::light::{Light, Point, Source};
 use super::place::{place, Placement, Viewpoint};
 use super::rig::Rig;
@@ -218,6 +218,7 @@ pub fn is_grid(extension: &str) -> bool {
 /// Reads a grid: a grey PNG picture with 8 or 16 bits a pixel, or text with a row a line, its
 /// numbers separated by blanks or commas; `#` begins a comment. The first row is the top one.
 pub fn load(file: &Path) -> Result<HeightGrid, SceneError> {
+    let _reading = reading(file);
     let picture = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
     Ok(if picture { read_png(file, &read(file)?)? } else { read_grid(file, &read_text(file)?)? })
 }

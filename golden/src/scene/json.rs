@@ -18,7 +18,9 @@
 //!
 //! Nothing is lit. Triangles without area are legal and draw nothing.
 
-use super::error::{read_text, InputError, SceneError, COORDINATE_LIMIT, CORNER_LIMIT, SIZE_LIMIT};
+use super::error::{
+    read_text, reading, InputError, SceneError, COORDINATE_LIMIT, CORNER_LIMIT, SIZE_LIMIT,
+};
 use super::locate::Locator;
 use super::{Colours, Material, Mesh, Rig, Scene};
 use serde::de::{DeserializeOwned, Error, Unexpected, Visitor};
@@ -144,6 +146,7 @@ fn in_words(expected: &str) -> &str {
 
 /// Reads a scene file.
 pub fn load(file: &Path) -> Result<Scene, SceneError> {
+    let _reading = reading(file);
     scene(file, &read_text(file)?)
 }
 

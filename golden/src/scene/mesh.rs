@@ -2,7 +2,9 @@
 
 use super::error::{SceneError, COORDINATE_LIMIT};
 use super::vector::{add, dot, outward, unit, Vec3};
+use crate::progress::Stage;
 use crate::setup::MAX_VERTICES;
+use crate::text::Grouped;
 use std::collections::HashMap;
 
 /// Largest texture coordinate, in repeats of the texture.
@@ -116,6 +118,8 @@ impl Mesh {
     /// Vertices at the same place count as one, so that seams of texture do not show; vertices at
     /// creases are doubled.
     pub fn crease_normals(&mut self, crease: f64) {
+        let _stage =
+            Stage::new(format!("smoothing {} triangles", Grouped(self.triangles.len() as u64)));
         let mut places = HashMap::new();
         let mut around: Vec<Vec<u32>> = Vec::new();
         let mut place_of = Vec::with_capacity(self.positions.len());

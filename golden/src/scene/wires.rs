@@ -13,6 +13,7 @@ use super::vector::{extent, mix, Vec3};
 use super::{Camera, Lens, Material, Scene};
 use crate::config::Config;
 use crate::formats::{Eye, Formats};
+use crate::progress::over;
 use std::collections::HashMap;
 
 /// Greatest thickness of a line, in pixels.
@@ -34,7 +35,7 @@ pub struct Line {
 pub fn mesh(lines: &[Line], camera: &Camera) -> Mesh {
     let mut mesh = Mesh::default();
     let mut colours = Vec::new();
-    for (id, line) in lines.iter().enumerate() {
+    for (id, line) in over("placing lines", "lines", lines).enumerate() {
         for lens in camera.lenses() {
             let Some(line) = line.within(lens) else { continue };
             let first = mesh.positions.len() as u32;
@@ -158,7 +159,8 @@ impl Edges {
         let common = |eyes: [[f64; 4]; 2]| -> [u8; 3] {
             std::array::from_fn(|n| ((eyes[0][n] + eyes[1][n]) / 2.0).round() as u8)
         };
-        for (n, triangle) in mesh.triangles.iter().enumerate() {
+        let triangles = over("finding edges", "triangles", &mesh.triangles);
+        for (n, triangle) in triangles.enumerate() {
             let colours = shading.triangle(n).map(common);
             let id = mesh.triangle_ids.get(n).copied().unwrap_or(n as u32);
             self.add_polygon(mesh, triangle, &colours, self.polygons + id)?;

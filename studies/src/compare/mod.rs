@@ -9,7 +9,7 @@ mod methods;
 mod show;
 
 pub use methods::METHODS;
-pub use show::{json, table, Grouped};
+pub use show::{json, table};
 
 use crate::prepared::Prepared;
 use crate::timing::{shortest, turns, Spell};
@@ -23,6 +23,7 @@ use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::{Frame, NO_ID};
 use wheatstone_golden::picture::{frame_picture, side_by_side, write_png, Rgb, RgbImage};
 use wheatstone_golden::primary::Counts;
+use wheatstone_golden::progress::Stage;
 use wheatstone_golden::quality::Quality;
 use wheatstone_golden::work::{Unmetered, Work};
 
@@ -176,6 +177,7 @@ pub fn compare(
     let mut outcomes = Vec::new();
     for method in METHODS {
         tell(method);
+        let _stage = Stage::new(format!("measuring {}", method.name));
         let result = match (method.draw)(prepared) {
             Err(unsuited) => Err(unsuited),
             Ok(mut pair) => {

@@ -2,9 +2,9 @@
 
 use super::{Measured, Method, Outcome};
 use serde_json::{json, Value};
-use std::fmt;
 use wheatstone_golden::primary::Counts;
 use wheatstone_golden::quality::Quality;
+use wheatstone_golden::text::Grouped;
 
 /// The outcomes as a table; a dash stands for what a method does not count.
 pub fn table(outcomes: &[Outcome]) -> String {
@@ -96,18 +96,6 @@ fn cells(method: &Method, measured: &Measured) -> [String; 10] {
         number(quality.gaps),
         quality.ratio(),
     ]
-}
-
-/// A number with its thousands apart.
-pub struct Grouped(pub u64);
-
-impl fmt::Display for Grouped {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 < 1000 {
-            return write!(f, "{}", self.0);
-        }
-        write!(f, "{},{:03}", Grouped(self.0 / 1000), self.0 % 1000)
-    }
 }
 
 /// Counts with `null` for what a method does not count.

@@ -3,7 +3,8 @@
 use super::*;
 use wheatstone_golden::files::{self, Set};
 use wheatstone_golden::setup::Arrangement;
-use wheatstone_studies::compare::{compare, json, table, Grouped, Method, METHODS};
+use wheatstone_golden::text::Grouped;
+use wheatstone_studies::compare::{compare, json, table, Method, METHODS};
 use wheatstone_studies::prepared::Prepared;
 
 #[derive(Debug, Args)]

@@ -36,13 +36,14 @@ use crate::Builder;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use failure::{Failure, BAD_INPUT, MISMATCH, MISSING_TOOL, OK, STATUSES, UNFINISHED};
 use places::Places;
-use progress::{clear_line, is_terminal, tell_line, turn, Spinner};
+use progress::{break_silence, clear_line, is_terminal, tell_line, turn, Spinner};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::formats::Formats;
+use wheatstone_golden::progress::Stage;
 use wheatstone_golden::projection::Kind;
 use wheatstone_golden::scene::wires::wire_frame;
 use wheatstone_golden::scene::{self, builtin, Cull, Geometry, Scene, SceneError};
@@ -211,6 +212,9 @@ pub fn main() -> ExitCode {
         clear_line();
         watch::end(wheatstone_process::signal_status(signal))
     });
+    break_silence();
+    // Those that call tools tell what they wait for themselves.
+    let _stage = (!is_child).then(|| Stage::new("at work"));
     if let Some(seconds) = cli.timeout {
         wheatstone_process::set_limit(Duration::from_secs(seconds.into()));
     }

@@ -6,7 +6,7 @@
 use super::{BAD_INPUT, OK};
 use std::fmt::Arguments;
 use std::io::{self, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use wheatstone_golden::text::printable_within;
 
@@ -46,11 +46,21 @@ fn wrong() -> MutexGuard<'static, Option<io::Error>> {
     WRONG.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// How often something was printed.
+static PRINTED: AtomicU64 = AtomicU64::new(0);
+
+/// How often something was printed so far, on either stream.
+pub(super) fn printed() -> u64 {
+    PRINTED.load(Ordering::Relaxed)
+}
+
 pub(super) fn out(text: Arguments<'_>) {
+    PRINTED.fetch_add(1, Ordering::Relaxed);
     check(writeln!(io::stdout(), "{}", clean(&text.to_string())));
 }
 
 pub(super) fn err(text: Arguments<'_>) {
+    PRINTED.fetch_add(1, Ordering::Relaxed);
     let _ = writeln!(io::stderr(), "{}", clean(&text.to_string()));
 }
 

@@ -6,6 +6,7 @@ use super::super::vector::Vec3;
 use super::super::warning::Warnings;
 use super::material::{Look, Pattern};
 use super::parse::{Element, Parsed, NONE};
+use crate::progress::over;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -44,7 +45,8 @@ pub fn meshes(
     let parsed = &*parsed;
     let mut meshes: Vec<Mesh> = Vec::new();
     let mut builder: Option<Builder> = None;
-    for of_face in pieces.chunk_by(|a, b| a.face == b.face) {
+    let faces = pieces.chunk_by(|a, b| a.face == b.face);
+    for of_face in over("making meshes", "faces", faces) {
         let face = of_face[0].face;
         let element = &parsed.faces[face as usize];
         let look = &looks[(element.material as usize).min(looks.len() - 1)];
@@ -71,7 +73,8 @@ pub fn meshes(
 /// corners more.
 fn pieces(parsed: &mut Parsed) -> (Vec<Piece>, Vec<Vec3>) {
     let mut pieces = Vec::new();
-    (0..parsed.faces.len()).for_each(|face| cut_face(parsed, face, &mut pieces));
+    over("cutting faces into triangles", "faces", 0..parsed.faces.len())
+        .for_each(|face| cut_face(parsed, face, &mut pieces));
     let mut normals: Vec<Vec3> = parsed.normals.iter().map(|n| n.unwrap_or_default()).collect();
     // Pieces without normals, and their vertices as a mesh.
     let mut bare = Vec::new();

@@ -25,7 +25,7 @@ mod tests;
 
 pub use picture::{TEXELS_LIMIT, TEXTURE_LIMIT};
 
-use super::error::{no_text, read, SceneError};
+use super::error::{no_text, read, reading, SceneError};
 use super::place::Placement;
 use super::warning::Warnings;
 use super::{Lighting, Rig, Scene, DEFAULT_SIZE};
@@ -54,6 +54,7 @@ pub fn empty_scene() -> Scene {
 /// is wrong. Less than that is a warning of the scene.
 pub fn load(file: &Path, mut scene: Scene, placement: &Placement) -> Result<Scene, SceneError> {
     let mut warnings = Warnings::default();
+    let _reading = reading(file);
     let text = decode_with_latin1(&read(file)?).map_err(|error| no_text(file, error))?;
     let mut parsed = parse::parse(file, &text, &mut warnings)?;
     drop(text);

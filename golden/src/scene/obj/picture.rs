@@ -1,6 +1,6 @@
 //! Pictures as textures: PNG, JPEG, BMP, TGA and WebP, told apart by their content.
 
-use super::super::error::read;
+use super::super::error::{read, reading};
 use crate::formats::Rgba;
 use crate::texture::Texture;
 use image::{ImageFormat, ImageReader, Limits, RgbImage, RgbaImage};
@@ -48,6 +48,7 @@ impl Pictures {
     }
 
     fn load(&mut self, file: &Path) -> Result<(u32, Option<String>), String> {
+        let _reading = reading(file);
         let bytes = read(file).map_err(|error| error.to_string())?;
         let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
         let is_tga = extension.as_deref() == Some("tga");

@@ -6,6 +6,8 @@
 
 use super::super::error::InputError;
 use super::super::warning::Warnings;
+use crate::progress::over;
+use crate::text::printable_path;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -37,7 +39,8 @@ pub fn each<E>(
     text: &str,
     mut found: impl FnMut(&Statement) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut lines = (1..).zip(text.lines());
+    let lines = over(format!("reading {}", printable_path(file)), "lines", text.lines());
+    let mut lines = (1..).zip(lines);
     while let Some((line, first)) = lines.next() {
         let first = trimmed(first);
         if first.is_empty() || first.starts_with('#') {

@@ -148,3 +148,17 @@ fn texture_points_that_cannot_be_used_leave_the_face_without_texture() {
         assert!(warnings.len() == 1 && warnings[0].starts_with(told), "{warnings:?}");
     }
 }
+
+#[test]
+fn it_is_known_how_far_a_file_is_read() {
+    let mut told = Vec::new();
+    let text = "v 1 2 3\n# comment\n\nv 4 5 6\nf 1 2 3";
+    let listen = |_: &super::statement::Statement| {
+        let own = |text: &String| text.contains("read slowly.obj");
+        told.extend(crate::progress::all().into_iter().filter(own));
+        Ok::<(), ()>(())
+    };
+    super::statement::each("a/read slowly.obj".as_ref(), text, listen).expect("no error");
+    let line = |n: u32| format!("reading a/read slowly.obj: {n} lines so far");
+    assert_eq!(told, [0, 3, 4].map(line));
+}
