@@ -49,6 +49,10 @@ pub fn early(log: &str, folder: &Path) -> Vec<String> {
             ) => {
                 written.extend(file);
             }
+            ("unlink" | "unlinkat", within) => {
+                let name = arguments.split('"').nth(1).unwrap_or_default();
+                written.remove(&within.unwrap_or_else(|| folder.into()).join(name));
+            }
             ("rename" | "renameat" | "renameat2", _) => {
                 let mut names = arguments.split('"').skip(1).step_by(2);
                 let (Some(old), Some(new)) = (names.next(), names.next()) else { continue };
@@ -103,6 +107,10 @@ mod tests {
              12  write(1<pipe:[1234]>, \"a\", 1) = 1\n\
              13  writev(4</w/.f/b>, [{iov_base=\"1\", iov_len=1}], 1) = 1\n\
              13  copy_file_range(4</w/.f/b>, NULL, 5</w/.f/c>, NULL, 7, 0) = 7\n\
+             13  write(5</w/.f/d>, \"x\", 1) = 1\n\
+             13  write(5</w/.f/e>, \"x\", 1) = 1\n\
+             13  unlinkat(6</w/.f>, \"d\", 0) = 0\n\
+             13  unlink(\"/w/.f/e\") = 0\n\
              13  fsync(4</w/.f/b> <unfinished ...>\n\
              12  renameat2(AT_FDCWD</w>, \"/w/.f\", AT_FDCWD</w>, \"/w/f\", RENAME_NOREPLACE) = 0\n";
         let folder = Path::new("/w");
