@@ -44,6 +44,16 @@ fn pictures_and_text_hold_the_same_grid() {
 }
 
 #[test]
+fn heights_that_are_very_close_are_stretched_like_others() {
+    let folder = folder();
+    let [close, plain] = ["close.txt", "plain.txt"].map(|name| folder.path().join(name));
+    fs::write(&close, "0 1e-320\n1e-320 0\n").unwrap();
+    fs::write(&plain, "0 1\n1 0\n").unwrap();
+    let [close, plain] = [close, plain].map(|file| opened(&file).unwrap().meshes);
+    assert_eq!(close[0].positions, plain[0].positions);
+}
+
+#[test]
 fn broken_grids_are_refused_by_line_and_column() {
     let wide = format!("{}\n", "1 ".repeat(GRID_LIMIT + 1)).repeat(2);
     let tall = "1 2\n".repeat(GRID_LIMIT + 1);

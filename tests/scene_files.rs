@@ -189,6 +189,18 @@ fn broken_meshes_are_refused_by_line_and_field() {
         let error = load(&folder.put("empty.obj", text)).expect_err(text);
         assert!(error.contains("empty.obj: f: expected at least one face, found "), "{error}");
     }
+    for (line, said) in [
+        ("l 1", "l: expected at least two points, found 1, and the file has nothing else"),
+        (
+            "p 1\nf 1 1",
+            "f: expected at least three corners, found 2, and the file has nothing else",
+        ),
+    ] {
+        let text = format!("v 0 0 0\n{line}\nl\n");
+        let error = load(&folder.put("short.obj", &text)).expect_err(line);
+        let at = 1 + line.lines().count();
+        assert!(error.contains(&format!("short.obj:{at}: {said}")), "{error}");
+    }
     for (bytes, name) in [(b"\xff\xfev\0 \0", "UTF-16"), (b"v\0\0\0 \0", "UTF-32")] {
         let path = folder.put("wide.obj", "");
         fs::write(&path, bytes).expect("written");
@@ -232,6 +244,11 @@ fn what_is_not_followed_is_a_warning_with_file_and_line() {
         ("Kd 1 0 0", "Kd spectral x.rfl", "m.mtl:2: Kd spectral x.rfl: neither one nor three"),
         ("Kd 1 0 0", "Kd nan nan nan", "m.mtl:2: Kd nan nan nan: neither one nor three"),
         ("Ns 20", "Ns shiny", "m.mtl:4: Ns shiny: no finite number"),
+        (
+            "map_Kd picture.png",
+            "map_Kd -clamp on picture.png",
+            "m.mtl:9: map_Kd -clamp on picture.png: an option that is not followed (-clamp)",
+        ),
         ("Ns 20", "Ns 20\nmap_d", "m.mtl:5: map_d: no picture is named"),
         ("Ns 20", "Ns 20\nshine 7", "m.mtl:5: shine 7: no statement of MTL"),
         ("Tr 0.25", "d 1.5", "m.mtl:8: d 1.5: not from 0 to 1"),
@@ -429,4 +446,11 @@ fn broken_rig_files_are_refused() {
             assert!(error.contains(part), "{text}: “{error}” does not say “{part}”");
         }
     }
+    // No field is blamed that nobody wrote.
+    let mesh = folder.put("far.obj", "v 1e9 1e9 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n");
+    let rig = folder.put("rig.json", "{\"placement\": {\"rotation\": [0, 0, 45],\n\"fit\": null}}");
+    let opened = open(&mesh.display().to_string(), None, Some(&rig));
+    let error = opened.map(|_| ()).expect_err("too far").to_string();
+    let said = "rig.json:2: placement.fit: expected what puts no coordinate of the mesh beyond 1e9, found null";
+    assert!(error.ends_with(said), "{error}");
 }

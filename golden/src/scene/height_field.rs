@@ -95,8 +95,14 @@ impl HeightGrid {
         let highest = self.heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let [columns, rows] = self.size();
         let side = (columns.max(rows) - 1) as f64;
-        let factor = if highest > lowest { relief * side / (highest - lowest) } else { 1.0 };
-        let heights = self.heights.iter().map(|h| (h - lowest) * factor).collect();
+        let range = highest - lowest;
+        let factor = if range > 0.0 { relief * side / range } else { 1.0 };
+        let stretched = |h: f64| match factor.is_finite() {
+            true => (h - lowest) * factor,
+            // They are so close that the factor is beyond all doubles, but not its products.
+            false => (h - lowest) / range * (relief * side),
+        };
+        let heights = self.heights.iter().map(|&h| stretched(h)).collect();
         HeightGrid { columns: self.columns, heights }
     }
 

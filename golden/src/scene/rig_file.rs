@@ -250,7 +250,9 @@ impl RigFile {
         let Placement { fit, offset, .. } = &self.placement;
         let (field, found) = match (fit, self.pixels_per_unit) {
             (None | Some(Some(_)), Some(n)) => ("pixels_per_unit", shown(n)),
-            (Some(Some(fit)), None) if *offset == [0.0; 3] => ("placement.fit", fit.to_string()),
+            (Some(fit), _) if *offset == [0.0; 3] => {
+                ("placement.fit", fit.map_or("null".into(), |fit| fit.to_string()))
+            }
             _ => ("placement.offset", format!("{offset:?}")),
         };
         let limit = COORDINATE_LIMIT;

@@ -343,7 +343,10 @@ fn map(statement: &Statement, warnings: &mut Warnings) -> Option<Map> {
             ("-s", &[u, v, ..]) => pattern.scale = [u, v],
             ("-o", &[u]) => pattern.offset = [u, 0.0],
             ("-o", &[u, v, ..]) => pattern.offset = [u, v],
-            _ => statement.warn(warnings, "an option that is not followed"),
+            _ => {
+                let Statement { file, line, text, .. } = *statement;
+                warnings.add(file, line, text, "an option that is not followed", option);
+            }
         }
     }
     if rest.is_empty() {

@@ -17,6 +17,7 @@ mod convert;
 mod find;
 mod lines;
 mod material;
+mod palette;
 mod parse;
 mod picture;
 mod statement;

@@ -127,7 +127,8 @@ impl Parsed {
 /// Reads an OBJ file's text.
 pub fn parse(file: &Path, text: &str, warnings: &mut Warnings) -> Result<Parsed, SceneError> {
     let (parsed, known) = Default::default();
-    let mut reader = Reader { file, warnings, parsed, material: NONE, known, segments: 0 };
+    let mut reader =
+        Reader { file, warnings, parsed, material: NONE, known, segments: 0, short: None };
     each(file, text, |statement| reader.statement(statement))?;
     reader.finish()
 }
@@ -177,6 +178,16 @@ struct Reader<'a> {
     known: [HashMap<String, u32>; 2],
     /// Straight pieces of lines so far.
     segments: usize,
+    /// The first face or line with too few points to be drawn.
+    short: Option<Short>,
+}
+
+/// A statement with too few points to be drawn.
+struct Short {
+    line: usize,
+    keyword: &'static str,
+    least: &'static str,
+    found: usize,
 }
 
 impl Reader<'_> {
@@ -262,7 +273,7 @@ impl Reader<'_> {
     fn face(&mut self, statement: &Statement) -> Result<(), InputError> {
         let element = self.element(statement)?;
         if element.count < 3 {
-            self.parsed.corners.truncate(element.first);
+            self.too_short(&element, "f", "at least three corners");
             statement.warn(self.warnings, "fewer than three corners; not drawn");
             return Ok(());
         }
@@ -273,7 +284,7 @@ impl Reader<'_> {
     fn line(&mut self, statement: &Statement) -> Result<(), InputError> {
         let element = self.element(statement)?;
         if element.count < 2 {
-            self.parsed.corners.truncate(element.first);
+            self.too_short(&element, "l", "at least two points");
             statement.warn(self.warnings, "fewer than two points; not drawn");
             return Ok(());
         }
@@ -284,6 +295,13 @@ impl Reader<'_> {
         }
         self.parsed.lines.push(element);
         Ok(())
+    }
+
+    /// Leaves out a face or a line.
+    fn too_short(&mut self, element: &Element, keyword: &'static str, least: &'static str) {
+        self.parsed.corners.truncate(element.first);
+        let short = Short { line: element.line, keyword, least, found: element.count };
+        self.short.get_or_insert(short);
     }
 
     /// Reads corners; whether the file has them shows at its end.
@@ -356,6 +374,10 @@ impl Reader<'_> {
             }
         }
         if self.parsed.faces.is_empty() && self.parsed.lines.is_empty() {
+            if let Some(Short { line, keyword, least, found }) = self.short {
+                let found = format!("{found}, and the file has nothing else to draw");
+                return Err(InputError::new(self.file, line, keyword, least, found).into());
+            }
             let found = match count {
                 0 => "neither vertices nor faces".into(),
                 _ => format!("{count} vertices and no face of three corners; points are not drawn"),

@@ -1,6 +1,7 @@
 //! Pictures as textures: PNG, JPEG, BMP, TGA and WebP, told apart by their content.
 
 use super::super::error::{read, reading};
+use super::palette;
 use crate::formats::Rgba;
 use crate::texture::Texture;
 use image::{ImageFormat, ImageReader, Limits, RgbImage, RgbaImage};
@@ -84,7 +85,7 @@ fn decode(bytes: &[u8], is_tga: bool) -> Result<Picture, String> {
         image::ImageError::Limits(_) => too_large(),
         error => error.to_string(),
     })?;
-    Ok(Picture { texels: picture.into_rgba8(), damage: None })
+    Ok(Picture { texels: picture.into_rgba8(), damage: palette::damage(bytes, format) })
 }
 
 fn too_large() -> String {
