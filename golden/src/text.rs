@@ -120,14 +120,19 @@ impl fmt::Display for Grouped {
     }
 }
 
-/// The replacement character for control characters, line separators, invisible characters and
-/// those that turn the direction of writing.
-fn visible(c: char) -> char {
-    let hidden = matches!(
+/// Whether a character has no place on a line of a terminal: control characters, line separators, invisible
+/// characters and those that turn the direction of writing.
+pub fn is_hidden(c: char) -> bool {
+    let is_format = matches!(
         c,
         '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}'
     );
-    if hidden || c.is_control() {
+    is_format || c.is_control()
+}
+
+/// The replacement character for what [`is_hidden`].
+fn visible(c: char) -> char {
+    if is_hidden(c) {
         '\u{fffd}'
     } else {
         c

@@ -1,11 +1,12 @@
 //! The end of this process before its work is done: nothing that it has started is left.
 
 use crate::end_all;
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+use signal_hook::flag;
 use signal_hook::iterator::Signals;
 use std::fs;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 use std::thread;
 
 /// Ends this process at once: kills all children, then cleans up. Another thread that is about to do the same waits
@@ -29,9 +30,12 @@ pub(crate) fn guard() {
 }
 
 /// Calls `end` on the first signal that asks this process to end: SIGINT, SIGTERM or SIGHUP, those that were not
-/// ignored when it began, as SIGHUP is under `nohup`.
+/// ignored when it began, as SIGHUP is under `nohup`. A write beyond the largest size of a file (`ulimit -f`) is from
+/// then on an error of that write, not the end of this process.
 pub fn on_signal(end: impl FnOnce(i32) + Send + 'static) {
     IS_SET.store(true, Ordering::Relaxed);
+    // Of a handler nothing is left in the programs that are started; what is ignored, they ignore too.
+    let _ = flag::register(SIGXFSZ, Arc::default());
     let ignored = ignored();
     let asked = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|n| ignored >> (n - 1) & 1 == 0);
     let Ok(mut signals) = Signals::new(asked) else { return };

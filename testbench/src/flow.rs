@@ -1,6 +1,7 @@
 //! Flows of open tools on the Verilog of a module: in a temporary folder, with results kept by content.
 
 use crate::kept::{self, entry, short, Kept};
+use crate::room;
 use crate::sources::Sources;
 use crate::tools::{self, Found, Tool, ToolError};
 use serde::{de::DeserializeOwned, Serialize};
@@ -201,6 +202,10 @@ impl Folder {
 
     /// The error of a tool that said `text`.
     pub fn failed(&self, tool: &'static Tool, text: &str) -> FlowError {
+        if let Some(source) = room::lacking(self.folder.path(), text) {
+            let file = self.folder.path().parent().unwrap_or(self.folder.path()).to_owned();
+            return WriteError { file, source }.into();
+        }
         let all: Vec<&str> = text.lines().collect();
         let first = all.iter().position(|line| line.contains("ERROR")).unwrap_or(0);
         let lines = all[first..].iter().take(8).copied().collect::<Vec<_>>().join("\n");
@@ -220,6 +225,9 @@ mod tests {
         let lacks = "yosys failed on sam_x:\nERROR: it ended well, but wrote no stat";
         let run = folder.run(&tools::YOSYS, &mut Command::new("true"), &["stat"]).unwrap_err();
         assert!(run.to_string().starts_with(lacks), "{run}");
+        let full = folder.failed(&tools::YOSYS, "ABC: No space left on device").to_string();
+        let start = format!("{}: cannot be written: No space", cache.path().display());
+        assert!(full.starts_with(&start), "{full}");
         let read = folder.read(&tools::YOSYS, "stat").unwrap_err();
         assert!(read.to_string().starts_with(lacks), "{read}");
         fs::create_dir(folder.path().join("stat")).unwrap();
@@ -255,5 +263,24 @@ mod tests {
         let error = cached(cache.path(), "sam_x", &sources, &[b"yosys"], |_| true, |_| Ok(0));
         let error = error.unwrap_err().to_string();
         assert!(error.ends_with("expected a regular file, found a folder; delete it"), "{error}");
+        fs::remove_dir(&file).unwrap();
+        std::os::unix::fs::symlink(&file, &file).unwrap();
+        let error = cached(
+            cache.path(),
+            "sam_x",
+            &sources,
+            &[b"yosys"],
+            |_| true,
+            |_| {
+                measured.set(0);
+                Ok(0)
+            },
+        );
+        let error = error.unwrap_err().to_string();
+        assert!(
+            error.ends_with("found a symbolic link that leads to itself; delete it"),
+            "{error}"
+        );
+        assert_eq!(measured.get(), 3, "that is seen before the work");
     }
 }

@@ -1,6 +1,7 @@
 //! Vector packs replayed outside the co-simulation: in Icarus, in cocotb, and on gate-level netlists.
 
 use crate::pack::{self, Checked, PackError, Port};
+use crate::room;
 use crate::sources;
 use crate::synth::{Cells, SynthError, Synthesiser};
 use crate::tools::{self, Found, Tool, ToolError, COCOTB, ICARUS, VVP};
@@ -246,6 +247,9 @@ impl Run<'_> {
     }
 
     fn failed(&self, tool: &'static Tool, said: &str) -> ReplayError {
+        if let Some(source) = room::lacking(&self.pack.folder, said) {
+            return ReplayError::at(&self.pack.folder)(source);
+        }
         let said = said.lines().take(8).collect::<Vec<_>>().join("\n");
         let said = sources::named_from(&self.replayer.synthesiser.rtl, &said);
         ReplayError::Failed { tool: tool.program, pack: self.pack.folder.clone(), said }

@@ -14,6 +14,7 @@ use crate::kept::{self, entry, short, Kept};
 use crate::layout::{Layout, Probe};
 use crate::model::Library;
 use crate::ports;
+use crate::room;
 use crate::shim::{self, PREFIX};
 use crate::sources::{self, Sources};
 use crate::tools::Toolchain;
@@ -357,14 +358,14 @@ fn absolute(path: &Path) -> PathBuf {
 fn is_folder(path: &Path) -> Result<bool, BuildError> {
     match fs::metadata(path) {
         Ok(there) if there.is_dir() => Ok(true),
-        Ok(_) => {
+        Err(_) if files::irregular(path).is_none() => Ok(false),
+        _ => {
             let source = io::Error::other(format!(
                 "expected a folder, found {}; delete it",
                 files::irregular(path).unwrap_or("a file")
             ));
             Err(BuildError::Cache { path: path.to_owned(), source })
         }
-        Err(_) => Ok(false),
     }
 }
 
@@ -403,6 +404,10 @@ fn run(
             Err(error) => format!("{name} cannot be read: {}", error.source),
         };
         text = format!("error: it ended well, but {why}\n{text}");
+    }
+    let folder = log.parent().unwrap_or(Path::new("."));
+    if let Some(source) = room::lacking(folder, &text) {
+        return Err(BuildError::Cache { path: folder.to_owned(), source });
     }
     files::write(log, text.as_bytes())
         .map_err(|e| BuildError::Cache { path: e.file, source: e.source })?;

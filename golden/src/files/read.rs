@@ -1,6 +1,7 @@
 //! Reading what a stranger may have made.
 
 use crate::text::printable_path;
+use rustix::io::Errno;
 use std::fs::{self, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::os::unix::fs::OpenOptionsExt;
@@ -55,9 +56,13 @@ fn bounded(file: &Path, limit: u64) -> io::Result<Vec<u8>> {
 }
 
 /// The kind of thing that a path leads to, if it leads to something that is no regular file: `a folder`,
-/// `a pipe (FIFO)`, `a socket` or `a device`.
+/// `a pipe (FIFO)`, `a socket`, `a device`, or `a symbolic link that leads to itself`.
 pub fn irregular(path: &Path) -> Option<&'static str> {
-    fs::metadata(path).ok().as_ref().and_then(kind)
+    let is_loop = |error: io::Error| error.raw_os_error() == Some(Errno::LOOP.raw_os_error());
+    match fs::metadata(path) {
+        Ok(there) => kind(&there),
+        Err(error) => is_loop(error).then_some("a symbolic link that leads to itself"),
+    }
 }
 
 fn kind(there: &Metadata) -> Option<&'static str> {
@@ -136,6 +141,11 @@ mod tests {
         ] {
             let text = refused(file, 1 << 20);
             assert!(text.ends_with(&format!("expected a regular file, found {kind}")), "{text}");
+            assert_eq!(irregular(file), Some(kind));
         }
+        let itself = folder.path().join("itself");
+        std::os::unix::fs::symlink("itself", &itself).unwrap();
+        assert_eq!(irregular(&itself), Some("a symbolic link that leads to itself"));
+        assert_eq!(irregular(&folder.path().join("none")), None);
     }
 }

@@ -110,7 +110,8 @@ fn replace(file: &Path, content: &[u8]) -> io::Result<()> {
     let _tidy = Tidy::new(folder);
     fs::create_dir_all(folder)?;
     let (_mark, mut temporary) = scratch::file(folder)?;
-    temporary.write_all(content)?;
+    // Past the wrapper, whose errors name the temporary path.
+    temporary.as_file_mut().write_all(content)?;
     super::sync(temporary.as_file())?;
     temporary.persist(file).map_err(|error| error.error)?;
     super::sync_folder(folder)

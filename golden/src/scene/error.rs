@@ -132,7 +132,7 @@ pub enum SceneError {
         builtin: Vec<&'static str>,
     },
     /// The views are empty or larger than the configuration allows.
-    #[error("size {width}x{height}: expected 1x1 to {limit}x{limit} pixels")]
+    #[error("size {width}x{height}: expected 1x1 to {limit}x{limit} pixels; give another --size, or another width and height in the rig or scene file")]
     Size {
         /// Width in pixels.
         width: u32,

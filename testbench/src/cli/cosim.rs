@@ -2,7 +2,8 @@
 
 use super::ignored::refuse;
 use super::*;
-use crate::regression::{self, command_line, counted, Entry, Event, NamedScene, Plan, Waves};
+use crate::regression::{self, counted, Entry, Event, NamedScene, Plan, Waves};
+use crate::shell::command_line;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Mutex;
 use wheatstone_golden::files::Tidy;
@@ -109,10 +110,10 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let entries = regression::run(&plan, &builder, &|event| console.tell(event))?;
     console.finish();
     say!("{}", regression::table(&entries).trim_end());
-    let command = command_line(arguments.iter().map(String::as_str));
+    let command = command_line(&arguments);
     let mut errors: Vec<String> = entries.iter().filter_map(unshown).collect();
     errors.extend(entries.iter().filter_map(uncompared));
-    errors.extend(write(args, &entries, &command, &out).err().map(|error| error.to_string()));
+    errors.extend(write(args, &entries, &command, &out).err().map(|error| error.told()));
     let mut failures = entries.iter().filter_map(|e| e.failure.as_ref()).peekable();
     let status = match (failures.peek(), errors.is_empty()) {
         (Some(_), _) => MISMATCH,

@@ -7,12 +7,14 @@ use crate::mutation::MutationError;
 use crate::pack::PackError;
 use crate::regression::RegressionError;
 use crate::replay::ReplayError;
+use crate::room::is_full;
 use crate::settings::SettingError;
 use crate::synth::record::RecordError;
 use crate::synth::SynthError;
 use crate::tools::ToolError;
 use crate::verification::VerificationError;
 use crate::BuildError;
+use rustix::io::Errno;
 use std::error::Error;
 use std::io;
 use wheatstone_golden::files::WriteError;
@@ -81,6 +83,12 @@ pub(super) enum Failure {
 }
 
 impl Failure {
+    /// What is told of it, with what can be done about it where only the system says why.
+    pub(super) fn told(&self) -> String {
+        let remedy = system_error(self).and_then(remedy);
+        remedy.map_or_else(|| self.to_string(), |remedy| format!("{self}; {remedy}"))
+    }
+
     pub(super) fn status(&self) -> u8 {
         match self {
             _ if has_waited(self) => UNFINISHED,
@@ -108,6 +116,26 @@ impl Failure {
     }
 }
 
+/// What the system said, where that is the cause.
+fn system_error<'a>(error: &'a (dyn Error + 'static)) -> Option<&'a io::Error> {
+    error.downcast_ref().or_else(|| error.source().and_then(system_error))
+}
+
+/// What can be done about what the system said.
+fn remedy(error: &io::Error) -> Option<&'static str> {
+    match error.kind() {
+        _ if is_full(error) => Some("make room on that disk and try again"),
+        io::ErrorKind::ReadOnlyFilesystem => Some("name a place on a disk that can be written to"),
+        io::ErrorKind::NotADirectory => Some("a part of its path is no folder; name another place"),
+        _ => match Errno::from_io_error(error)? {
+            Errno::FBIG => Some("raise the limit of the size of files (ulimit -f) and try again"),
+            Errno::LOOP => Some("a link leads to itself; delete it"),
+            Errno::MFILE => Some("raise the limit of open files (ulimit -n) and try again"),
+            _ => None,
+        },
+    }
+}
+
 /// Whether another process was waited for, for too long.
 fn has_waited(error: &(dyn Error + 'static)) -> bool {
     let is_own = |error: &io::Error| error.kind() == io::ErrorKind::TimedOut;
@@ -126,5 +154,26 @@ fn of_process(error: &ProcessError) -> u8 {
     match error {
         ProcessError::Start { .. } => MISSING_TOOL,
         ProcessError::Hung { .. } | ProcessError::Flood { .. } => UNFINISHED,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_system_says_has_a_remedy() {
+        let failure = |code: Errno| {
+            // As whoever makes temporary files says it.
+            let source: io::Error = code.into();
+            let source = io::Error::new(source.kind(), format!("{source} at a path"));
+            Failure::Synth(SynthError::Write(WriteError { file: "cache".into(), source }))
+        };
+        let told = failure(Errno::NOSPC).told();
+        assert!(told.starts_with("cache: cannot be written: No space left"), "{told}");
+        assert!(told.ends_with("; make room on that disk and try again"), "{told}");
+        assert_eq!(failure(Errno::NOSPC).status(), BAD_INPUT);
+        assert_eq!(failure(Errno::IO).told(), failure(Errno::IO).to_string());
+        assert_eq!(Failure::Input("x".into()).told(), "x");
     }
 }

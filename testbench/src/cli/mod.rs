@@ -46,7 +46,7 @@ use wheatstone_golden::formats::Formats;
 use wheatstone_golden::progress::Stage;
 use wheatstone_golden::projection::Kind;
 use wheatstone_golden::scene::wires::wire_frame;
-use wheatstone_golden::scene::{self, builtin, Cull, Geometry, Scene, SceneError};
+use wheatstone_golden::scene::{self, builtin, Cull, Geometry, Scene, SceneError, SIZE_LIMIT};
 use wheatstone_golden::setup::Options;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
@@ -178,7 +178,10 @@ enum CullChoice {
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let parsed = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    parsed.ok_or_else(|| "expected WIDTHxHEIGHT in pixels, for example 640x480".into())
+    let legal = parsed.filter(|size| size.iter().all(|n| (1..=SIZE_LIMIT).contains(n)));
+    legal.ok_or_else(|| {
+        format!("expected WIDTHxHEIGHT in pixels, each from 1 to {SIZE_LIMIT}, for example 640x480")
+    })
 }
 
 fn parse_projection(text: &str) -> Result<Kind, String> {
@@ -219,7 +222,7 @@ pub fn main() -> ExitCode {
         wheatstone_process::set_limit(Duration::from_secs(seconds.into()));
     }
     let status = cli.command.run().unwrap_or_else(|failure| {
-        tell!("error: {failure}");
+        tell!("error: {}", failure.told());
         failure.status()
     });
     let status = print::finish(status);

@@ -4,6 +4,7 @@
 use super::{builtin_names, Failure, View};
 use crate::pack;
 use rustix::fs::{access, Access};
+use std::env;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -74,6 +75,10 @@ impl<'a> Places<'a> {
 
 /// Why nothing can be written to a place.
 fn unfit(path: &Path, of: Use) -> Option<String> {
+    if path.is_relative() && env::current_dir().is_err() {
+        let why = "cannot be written: the working folder was deleted; change to one that is there";
+        return Some(why.into());
+    }
     match fs::metadata(path) {
         Ok(there) if there.is_dir() && of == Use::File => {
             Some("a folder; name a file in it".into())

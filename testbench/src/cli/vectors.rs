@@ -4,7 +4,8 @@ use super::ignored::refuse;
 use super::*;
 use crate::cases::{self, Case};
 use crate::pack::{self, Drawn, Manifest, Origin, SceneOrigin};
-use crate::regression::{command_line, counted, scene_head};
+use crate::regression::{counted, scene_head};
+use crate::shell::{command_line, operand};
 use wheatstone_golden::text::{printable, printable_path};
 
 /// Random beats of a pack.
@@ -66,7 +67,7 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
             written.push(info.folder);
         }
     }
-    let words = |folder: &Path| command_line([&*folder.to_string_lossy()]);
+    let words = |folder: &Path| command_line([operand(folder)]);
     say!("verify with:  wheatstone check {}", words(&args.out));
     if let Some(folder) = written.first() {
         let bench = words(&folder.join("replay.v"));

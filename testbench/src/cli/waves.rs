@@ -2,8 +2,10 @@
 
 use super::ignored::refuse;
 use super::*;
-use crate::regression::{command_line, record_waves, Focus};
+use crate::regression::{record_waves, Focus};
+use crate::shell::{command_line, operand};
 use crate::tools::GTKWAVE;
+use std::ffi::OsStr;
 use std::io::{Read, Seek};
 use std::process::Stdio;
 use std::time::Duration;
@@ -107,7 +109,7 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
         say!("marker on cycle {marker}");
     }
     let view = waves.file.with_extension("gtkw");
-    say!("open with:  {}", command_line(["gtkwave", &view.to_string_lossy()]));
+    say!("open with:  {}", command_line([OsStr::new("gtkwave"), &operand(&view)]));
     if args.open {
         open(&view)?;
     }

@@ -1,7 +1,9 @@
 //! What can be wrong with a pack.
 
+use crate::shell::{command_line, operand};
+use std::ffi::OsStr;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 use wheatstone_golden::text::{printable, printable_path};
 
@@ -17,7 +19,7 @@ pub enum PackError {
         source: io::Error,
     },
     /// The manifest is no manifest.
-    #[error("{}: line {line}, column {column}: {}", printable_path(.path), printable(.message))]
+    #[error("{}: line {line}, column {column}: {}; get the pack again, or write it again with wheatstone vectors", printable_path(.path), printable(.message))]
     Manifest {
         /// The manifest.
         path: PathBuf,
@@ -49,7 +51,7 @@ pub enum PackError {
         found: String,
     },
     /// The folder has no pack, nor packs in its folders.
-    #[error("{0}: no vector pack here (a pack has a file manifest.json); write one with: wheatstone vectors --out {0}", printable_path(.path))]
+    #[error("{0}: no vector pack here (a pack has a file manifest.json); write one with: {1}", printable_path(.path), written_into(.path))]
     Missing {
         /// The folder.
         path: PathBuf,
@@ -78,6 +80,12 @@ pub enum PackError {
         /// Most bytes of a file.
         limit: u64,
     },
+}
+
+/// The command that writes packs into a folder.
+fn written_into(folder: &Path) -> String {
+    let words = ["wheatstone", "vectors", "--out"].map(|word| OsStr::new(word).into());
+    command_line(words.into_iter().chain([operand(folder)]))
 }
 
 impl PackError {

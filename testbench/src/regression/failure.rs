@@ -3,10 +3,11 @@
 use super::report::counted;
 use super::run::{MemoryFault, Ran, Setting};
 use super::{Event, Ground, RegressionError, Waves};
+use crate::shell::{command_line, operand};
 use crate::waves::{Dump, View};
 use crate::{Difference, Fault, Library, Mismatch, Outcome, Place, Probe};
 use serde::Serialize;
-use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::fmt;
 use std::fs;
 use std::ops::RangeInclusive;
@@ -146,20 +147,6 @@ fn slug(case: &str) -> String {
     let stem = Path::new(case).file_stem().unwrap_or_default().to_string_lossy();
     let words = stem.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty());
     words.collect::<Vec<_>>().join("-")
-}
-
-/// Words as a command for a shell.
-pub(crate) fn command_line<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
-    words.into_iter().map(quoted).collect::<Vec<_>>().join(" ")
-}
-
-/// A word as a POSIX shell reads it.
-fn quoted(word: &str) -> Cow<'_, str> {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_@%+=:,./-".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.into();
-    }
-    format!("'{}'", word.replace('\'', r"'\''")).into()
 }
 
 impl Failure {
@@ -343,7 +330,7 @@ impl fmt::Display for Failure {
         if let Some(waves) = &self.waves {
             line("waveforms", Some(&printable_path(waves)))?;
             let view = waves.with_extension("gtkw");
-            let command = command_line(["gtkwave", &view.to_string_lossy()]);
+            let command = command_line([OsStr::new("gtkwave"), &operand(&view)]);
             line("open with", Some(&command))?;
         }
         Ok(())

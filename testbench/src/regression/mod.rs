@@ -12,7 +12,6 @@ mod run;
 mod waves;
 
 pub use error::RegressionError;
-pub(crate) use failure::command_line;
 pub use failure::{Failure, Location};
 pub(crate) use report::counted;
 pub use report::{drawn_line, json, junit, table};
