@@ -152,7 +152,7 @@ fn diagrams_name_the_registers_of_the_verilog() {
 }
 
 /// The pack of a scene in a file: its manifest has every field.
-fn pack_of_a_file(out: &Path) -> PackInfo {
+pub(crate) fn pack_of_a_file(out: &Path) -> PackInfo {
     let settings = Settings::new::<&str>("default", &[]).unwrap();
     let scene = scene::open("ramp", Some([32, 24]), None).unwrap();
     let geometry = scene.geometry(&Formats::new(&settings.config), &Default::default()).unwrap();
@@ -162,6 +162,7 @@ fn pack_of_a_file(out: &Path) -> PackInfo {
         name: "ramp.obj",
         file: Some(b"f"),
         rig: &scene.rig,
+        rig_file: Some("{\"light\": {\"colour\": [1, 0.50, 0]}}\n"),
         settings: &settings,
         cull: false,
         wire: false,

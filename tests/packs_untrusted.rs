@@ -203,7 +203,8 @@ fn sizes_and_numbers_are_bounded() {
     // Depth without end.
     let attack = Attack::new();
     fs::write(attack.pack.join("manifest.json"), "[".repeat(500_000)).expect("written");
-    attack.is_refused(&["manifest.json: line 1", "recursion limit"]);
+    let said = "recursion limit exceeded; get the pack again, or write it again with";
+    attack.is_refused(&["manifest.json: line 1, column ", said]);
 }
 
 #[test]
@@ -230,6 +231,28 @@ fn numbers_of_frame_buffers_are_bounded() {
         fs::write(attack.pack.join("manifest.json"), &sound).expect("written");
     }
     pack::check(&attack.pack).expect("sound again");
+}
+
+#[test]
+fn the_rig_file_of_a_scene_is_one() {
+    let folder = folder();
+    let pack = crate::docs::pack_of_a_file(folder.path()).folder;
+    let attack = Attack { _folder: folder, pack };
+    let checked = pack::check(&attack.pack).expect("sound").remove(0);
+    let scene = checked.manifest.scene.expect("a scene");
+    assert_eq!(scene.rig_file.as_deref(), Some(r#"{"light":{"colour":[1,0.50,0]}}"#));
+    for (text, said) in [
+        ("[1]", "scene.rig_file.file: a list, expected an object in braces"),
+        (
+            r#"{"light":{"colour":[1,-1,0]}}"#,
+            "scene.rig_file.light.colour: [1.0, -1.0, 0.0], expected",
+        ),
+        (r#"{"lamp":1}"#, "scene.rig_file.lamp"),
+        ("{}\u{1b}", "scene.rig_file: other characters, expected printable ASCII"),
+    ] {
+        attack.manifest(|m| m["scene"]["rig_file"] = json!(text));
+        attack.is_refused(&[said]);
+    }
 }
 
 /// A case is named after what may be a file of any name.

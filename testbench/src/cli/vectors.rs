@@ -162,6 +162,7 @@ fn scene(
     let opened = common.open(name, common.view.size)?;
     let is_file = builtin_names().all(|builtin| builtin != name);
     let file = is_file.then(|| scene::read(Path::new(name))).transpose()?;
+    let rig_file = common.view.rig.as_deref().map(scene::read_text).transpose()?;
     let geometry = drawn(name, common.geometry_of(&opened, settings)?)?;
     let whole = job(settings, &geometry, settings.options);
     let job = target.job(&whole);
@@ -171,6 +172,7 @@ fn scene(
         name,
         file: file.as_deref(),
         rig: &opened.rig,
+        rig_file: rig_file.as_deref(),
         settings,
         cull: common.cull == CullChoice::Back,
         wire: common.wire,

@@ -2,7 +2,7 @@
 
 use super::bench::BENCH;
 use super::folder::Folder;
-use super::text::{fault, is_hash};
+use super::text::{fault, is_hash, is_plain};
 use super::*;
 use crate::settings::RUN_PARAMETERS;
 use std::fs;
@@ -13,6 +13,7 @@ use wheatstone_golden::files::{self, Scratch, Tidy};
 use wheatstone_golden::formats::{Formats, DEPTH_MAX};
 use wheatstone_golden::interface::{Field, Interface, Stream};
 use wheatstone_golden::projection::Kind;
+use wheatstone_golden::scene::{InputError, RigFile, SceneError};
 use wheatstone_golden::targets::Target;
 use wheatstone_golden::text::decode;
 
@@ -281,6 +282,9 @@ impl Checker<'_> {
         for Setting { name, value } in &scene.rig {
             self.number(&format!("scene.rig.{name}"), value)?;
         }
+        if let Some(text) = &scene.rig_file {
+            self.rig_file(text)?;
+        }
         self.within("scene.ranges", scene.ranges.len() as u64, 1, RANGES_LIMIT)?;
         scene.ranges.iter().flatten().try_for_each(|n| self.number("scene.ranges", n))?;
         let run = RUN_PARAMETERS.iter().filter(|p| p.name != "latency");
@@ -294,6 +298,21 @@ impl Checker<'_> {
                 self.same("scene.beats", scene.beats, port.beats)
             }
             _ => Ok(()),
+        }
+    }
+
+    /// A rig file that a scene can be drawn with.
+    fn rig_file(&self, text: &str) -> Result<(), PackError> {
+        let field = "scene.rig_file";
+        if !text.chars().all(is_plain) {
+            return Err(self.fault(field, "other characters", "printable ASCII characters"));
+        }
+        match RigFile::read(&self.path, text.into()) {
+            Ok(_) => Ok(()),
+            Err(SceneError::Input(InputError { field: inner, expected, found, .. })) => {
+                Err(self.fault(&format!("{field}.{inner}"), found, expected))
+            }
+            Err(error) => Err(self.fault(field, error, "the text of a rig file")),
         }
     }
 
@@ -381,8 +400,12 @@ impl Checker<'_> {
         };
         let text = decode(&bytes)
             .map_err(|error| fault(error.line().unwrap_or(1), 1, error.to_string()))?;
-        let fault =
-            |error: serde_json::Error| fault(error.line(), error.column(), error.to_string());
+        let fault = |error: serde_json::Error| {
+            // The place is said in front.
+            let message = error.to_string();
+            let message = message.rsplit_once(" at line ").map_or(&*message, |(what, _)| what);
+            fault(error.line(), error.column(), message.into())
+        };
         // The version first: another layout may have fields that this one does not know.
         let value: serde_json::Value = serde_json::from_str(&text).map_err(fault)?;
         let format = value.get("format").and_then(|f| f.as_str()).unwrap_or("nothing");

@@ -152,6 +152,9 @@ pub struct SceneOrigin {
     pub projection: String,
     /// Lengths and angles of the rig, as its file names them.
     pub rig: Vec<Setting>,
+    /// The text of the rig file, if there was one, without blanks: placement, light and all else.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub rig_file: Option<String>,
     /// Ranges of distances that are drawn: from and to in the scene, perceived from and to.
     pub ranges: Vec<[String; 4]>,
     /// Options of the run.

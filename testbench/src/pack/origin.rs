@@ -49,6 +49,8 @@ pub struct Drawn<'a> {
     pub file: Option<&'a [u8]>,
     /// Eyes and screen.
     pub rig: &'a Rig,
+    /// Text of the rig file.
+    pub rig_file: Option<&'a str>,
     /// Choices of the run.
     pub settings: &'a Settings,
     /// Faces turned away were left out.
@@ -93,6 +95,7 @@ impl SceneOrigin {
             height: job.height,
             projection: rig.projection.kind().name().into(),
             rig: numbers.map(setting).collect(),
+            rig_file: drawn.rig_file.map(compact),
             ranges: ranges.collect(),
             options: options.map(setting).collect(),
             polygons,
@@ -101,6 +104,18 @@ impl SceneOrigin {
             beats_of,
         }
     }
+}
+
+/// A JSON text without the blanks between its parts; no digit of it changes.
+fn compact(text: &str) -> String {
+    let (mut within, mut escaped) = (false, false);
+    let mut is_part = |c: &char| {
+        let is_part = within || !c.is_ascii_whitespace();
+        within ^= *c == '"' && !escaped;
+        escaped = within && *c == '\\' && !escaped;
+        is_part
+    };
+    text.chars().filter(|c| is_part(c)).collect()
 }
 
 /// A number that reads back as the same, short where it is very large or small.
@@ -127,4 +142,15 @@ fn polygons_hash(job: &Job) -> String {
         }
     }
     hasher.finalize().to_hex().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rig_file_keeps_all_but_its_blanks() {
+        let text = "{ \"a b\" :\n[0.10, -1e-7],\t\"\\\" \\\\\" : \"\" }\n";
+        assert_eq!(compact(text), r#"{"a b":[0.10,-1e-7],"\" \\":""}"#);
+    }
 }
