@@ -10,9 +10,9 @@ use wheatstone_golden::formats::Formats;
 use wheatstone_golden::scene;
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
+use wheatstone_testbench::cases::scene_head;
 use wheatstone_testbench::generated::Generated;
 use wheatstone_testbench::pack::{self, Drawn, Origin, PackInfo, SceneOrigin};
-use wheatstone_testbench::regression::scene_head;
 use wheatstone_testbench::settings::Settings;
 
 fn workspace() -> PathBuf {

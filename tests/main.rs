@@ -18,6 +18,7 @@ mod height_grid;
 mod hybrid;
 mod lint;
 mod minimal;
+mod module_graph;
 mod mono;
 mod mutation;
 mod opengl;

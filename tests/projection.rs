@@ -128,9 +128,9 @@ fn shear_and_translation_are_two_centres() {
 fn matrices_project_as_points_and_cameras_do() {
     for rig in mapped_rigs() {
         let camera = camera(&rig);
-        let viewer = rig.projection.viewer(&rig);
+        let viewer = rig.viewer();
         let size = [640.0, 480.0].map(|n| n / rig.pixels_per_unit);
-        for range in rig.projection.ranges(&rig) {
+        for range in rig.ranges() {
             let projection = ProjectionMatrix {
                 viewer,
                 map: range.map,
@@ -171,7 +171,7 @@ fn matrices_project_as_points_and_cameras_do() {
 
 /// Where the viewer's lines of sight through the two pixels meet: the perceived distance.
 fn triangulated(rig: &Rig, camera: &Camera, p: Vec3) -> f64 {
-    let viewer = rig.projection.viewer(rig);
+    let viewer = rig.viewer();
     let [left, right] =
         Eye::BOTH.map(|eye| (camera.pixel(p, eye)[0] - 320.0) / rig.pixels_per_unit);
     let a = viewer.eye_distance / 2.0;
@@ -184,13 +184,13 @@ fn what_is_seen_lies_where_the_map_says() {
     for rig in mapped_rigs() {
         let camera = camera(&rig);
         let mut random = Rng::with_seed(4);
-        for range in rig.projection.ranges(&rig) {
+        for range in rig.ranges() {
             for _ in 0..2000 {
                 let p = point(&mut random, &rig, [range.near, range.far]);
                 let perceived = range.map.perceived(p[2] + rig.viewing_distance);
                 let met = triangulated(&rig, &camera, p);
                 assert!((1.0 / met - 1.0 / perceived).abs() < 1e-11, "{met} {perceived}");
-                let disparity = rig.projection.viewer(&rig).disparity(perceived);
+                let disparity = rig.viewer().disparity(perceived);
                 let [left, right] = Eye::BOTH.map(|eye| camera.pixel(p, eye)[0]);
                 assert!((right - left - rig.pixels_per_unit * disparity).abs() < 1e-8);
                 if range.map.slope > 0.0 {
@@ -248,7 +248,7 @@ fn disparity_on_a_plane_is_affine_in_screen_coordinates() {
     let mut random = Rng::with_seed(5);
     for rig in mapped_rigs().into_iter().chain(Kind::ALL.map(|kind| rig(kind.into()))) {
         let camera = camera(&rig);
-        for range in rig.projection.ranges(&rig) {
+        for range in rig.ranges() {
             for _ in 0..300 {
                 let corners = [0; 3].map(|_| point(&mut random, &rig, [range.near, range.far]));
                 let (s, t) = (random.f64(), random.f64());
@@ -288,8 +288,8 @@ fn window_planes_are_where_the_guard_band_ends() {
             }
             let camera = camera(&rig);
             let guard = f64::from(FORMATS.guard_band);
-            let screen_distance = rig.projection.viewer(&rig).screen_distance;
-            for (lens, range) in camera.lenses().iter().zip(rig.projection.ranges(&rig)) {
+            let screen_distance = rig.viewer().screen_distance;
+            for (lens, range) in camera.lenses().iter().zip(rig.ranges()) {
                 for _ in 0..500 {
                     let p = point(&mut random, &rig, [range.near, range.far]);
                     let w = p[2] + rig.viewing_distance;

@@ -126,7 +126,7 @@ fn triangulated(rig: &Rig, distance: f64) -> [f64; 2] {
     let camera = Camera::new(rig, SIZE[0], SIZE[1], &Formats::new(&Config::DEFAULT));
     let p = [0.0, 0.0, distance - rig.viewing_distance];
     let [left, right] = Eye::BOTH.map(|eye| camera.pixel(p, eye)[0]);
-    let Viewer { eye_distance, screen_distance } = rig.projection.viewer(rig);
+    let Viewer { eye_distance, screen_distance } = rig.viewer();
     let apart = (right - left) / rig.pixels_per_unit;
     [screen_distance * eye_distance / (eye_distance - apart), right - left]
 }
@@ -141,7 +141,7 @@ fn the_map_is_what_the_eyes_triangulate() {
         let map = volume(rig.clone()).map(&asked);
         assert!(map.windows(2).all(|pair| pair[0].distance <= pair[1].distance));
         assert!(asked.iter().all(|d| map.iter().any(|place| place.distance == *d)));
-        let ranges = rig.projection.ranges(&rig);
+        let ranges = rig.ranges();
         let mut seen = 0;
         for place in &map {
             let drawn = ranges.iter().any(|r| (r.near..=r.far).contains(&place.distance));
@@ -199,7 +199,7 @@ fn what_no_partition_has_is_counted() {
             if let Some(partitions) = partitions {
                 scene.rig.projection = piecewise(partitions);
             }
-            let ranges = scene.rig.projection.ranges(&scene.rig);
+            let ranges = scene.rig.ranges();
             let drawn = |w: f64| ranges.iter().any(|r| r.near <= w && w <= r.far);
             let d = scene.rig.viewing_distance;
             let [mut polygons, mut undrawn, mut partly] = [0; 3];

@@ -1,12 +1,17 @@
 //! What is wrong with a run.
 
-use crate::{Kind, SECONDS};
+use crate::Kind;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use wheatstone_process::Output;
+
+/// Processor time that an input may take, in seconds.
+pub const SECONDS: u32 = 20;
+/// Memory that the program may have, in kB: the address space.
+pub const KILOBYTES: u32 = 2 << 20;
 
 /// The files below a folder.
 pub fn files(folder: &Path) -> io::Result<BTreeSet<PathBuf>> {

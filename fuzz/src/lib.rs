@@ -15,6 +15,7 @@ pub use kinds::Kind;
 pub use mutate::mutate;
 
 use fastrand::Rng;
+use judge::{KILOBYTES, SECONDS};
 use program::PATIENCE;
 use std::fs;
 use std::io;
@@ -23,11 +24,6 @@ use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use wheatstone_process::Process;
-
-/// Processor time that an input may take, in seconds.
-const SECONDS: u32 = 20;
-/// Memory that the program may have, in kB: the address space.
-const KILOBYTES: u32 = 2 << 20;
 
 /// What is to be run.
 #[derive(Clone, Debug)]

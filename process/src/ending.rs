@@ -1,6 +1,6 @@
 //! The end of this process before its work is done: nothing that it has started is left.
 
-use crate::end_all;
+use crate::group::end_all;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
 use signal_hook::iterator::Signals;

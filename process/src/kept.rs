@@ -1,6 +1,6 @@
 //! What is kept of the output of a program: its beginning and its end.
 
-use crate::Event;
+use crate::event::Event;
 use std::collections::VecDeque;
 use std::io::Read;
 use std::sync::mpsc::Sender;

@@ -1,6 +1,6 @@
 //! What the system knows of processes: whose they are, and the processor time that they have used.
 
-use crate::left;
+use crate::group::left;
 use rustix::process::{
     getpgrp, getpid, kill_process, kill_process_group, set_child_subreaper, wait, Pid, Signal,
     WaitOptions,

@@ -175,7 +175,7 @@ struct Observer {
 impl Observer {
     fn new(rig: Rig) -> Observer {
         let formats = Formats::new(&Config::DEFAULT);
-        let viewer = rig.projection.viewer(&rig);
+        let viewer = rig.viewer();
         Observer { camera: Camera::new(&rig, PIXELS[0], PIXELS[1], &formats), viewer, rig }
     }
 
@@ -200,7 +200,7 @@ fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
 /// A projection matrix against its eight steps, against points, and against the camera.
 fn matrices(title: &str, rig: &Rig) -> Table {
     let observer = Observer::new(rig.clone());
-    let range = rig.projection.ranges(rig)[0];
+    let range = rig.ranges()[0];
     let [width, height] = PIXELS.map(|n| f64::from(n) / rig.pixels_per_unit);
     let (viewer, map) = (observer.viewer, range.map);
     let projection =
@@ -259,8 +259,7 @@ fn asymptotic_map() -> Table {
     // What the publication's formulas give; it prints no distances.
     let ncp = (SI * MIND * MAXD - SI * SD * MIND) / (SD * MAXD - SD * MIND);
     let map = |d: f64| d * SD * MAXD / (d * SD + SI * MAXD - SI * SD);
-    let pot =
-        observer.viewer.projection_offset(&observer.rig.projection.ranges(&observer.rig)[0].map);
+    let pot = observer.viewer.projection_offset(&observer.rig.ranges()[0].map);
     let triangle = SD / (IPD / 2.0 * (SD / MIND - SD / MAXD));
     let rows = vec![
         row("MIND: d at NCP", observer.seen(near)).expected(MIND),

@@ -76,8 +76,8 @@ impl Volume {
         Ok(Volume {
             extent: scene.extent()?,
             size: [scene.width, scene.height],
-            viewer: rig.projection.viewer(&rig),
-            ranges: rig.projection.ranges(&rig),
+            viewer: rig.viewer(),
+            ranges: rig.ranges(),
             device,
             rig,
         })

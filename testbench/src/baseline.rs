@@ -3,10 +3,12 @@
 //! stalls from outside. Everything drawn is compared with the golden model.
 
 use crate::cases::monocular;
+use crate::numbers::thousands;
+use crate::record::{read_record, RecordError};
 use crate::regression::{
     model_probes, run_case, run_scene, Ran, RegressionError, Setting, MEASURED_LATENCY,
 };
-use crate::synth::record::{read_record, thousands, Record, RecordError};
+use crate::synth::record::Record;
 use crate::synth::{Figure, Tech};
 use crate::{Builder, Library, Spec, Stalls};
 use fastrand::Rng;
@@ -25,12 +27,13 @@ use wheatstone_golden::scene::{Colours, Material, Mesh, Rig, Scene, DEFAULT_SIZE
 use wheatstone_golden::setup::{Eyes, Polygon};
 use wheatstone_golden::stereo::Job;
 use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::Grouped;
 use wheatstone_studies::published::PRIMARY;
 
 /// Longest sides of the triangles in the table by size, in pixels.
 pub const SIZES: [u32; 9] = [2, 4, 8, 16, 32, 64, 96, 128, 256];
 
-/// How far triangles are turned from the screen at most, in degrees, in the tables by size.
+/// Largest angles between triangles and the screen, in degrees, in the tables by size.
 pub const TURNED: [u32; 3] = [0, 45, 90];
 
 /// Pixels that the triangles of one size cover at least, about.
@@ -39,14 +42,14 @@ const COVERED: f64 = 150_000.0;
 /// A seed of the simulation: with stalls off and a steady memory, clocks do not depend on it.
 const SEED: u64 = 1;
 
-/// What both take for the same polygons.
+/// The clocks of both for the same polygons.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// What was drawn.
+    /// Name of the scene or of the triangles.
     pub name: String,
     /// Polygons.
     pub polygons: u64,
-    /// Those of which the stereo pipeline derives one view from the other.
+    /// Polygons of which the stereo pipeline derives one view from the other.
     pub derived: u64,
     /// Clocks of the stereo pipeline for both views.
     pub stereo: u64,
@@ -64,7 +67,7 @@ impl Row {
         self.stereo as f64 / self.monocular.iter().sum::<u64>() as f64
     }
 
-    /// What that would be if each polygon took its pixels in the view in which it has more.
+    /// The same if each polygon took its pixels in the view in which it has more.
     pub fn bound(&self) -> f64 {
         self.wider as f64 / self.pixels.max(1) as f64
     }
@@ -282,7 +285,7 @@ impl Rows {
         sizes.chain(self.scenes.iter().map(|row| (None, row)))
     }
 
-    /// What differs from recorded rows, and what takes longer than two passes, a line each.
+    /// Rows that differ from recorded ones, and rows that take longer than two passes, a line each.
     pub fn faults(&self, recorded: &Rows) -> Vec<String> {
         let known: Vec<(Option<u32>, &Row)> = recorded.all().collect();
         let tell = |(turned, row): (Option<u32>, &Row)| {
@@ -346,8 +349,7 @@ pub fn row_tables(rows: &Rows, config: &str, areas: Option<&Areas>) -> String {
     let mut text = String::new();
     let row = |text: &mut String, row: &Row| {
         let numbers = [row.polygons, row.derived, row.stereo, row.monocular.iter().sum()];
-        let cells: String =
-            numbers.iter().map(|n| format!(" {} |", thousands(*n as f64))).collect();
+        let cells: String = numbers.iter().map(|n| format!(" {} |", Grouped(*n))).collect();
         // Two pipelines at once take twice the area and half the time.
         let product = |a: &Areas| format!("{:.2}", 2.0 * a.to_monos() * row.clocks());
         let (ratio, bound) = (row.clocks(), row.bound());

@@ -16,7 +16,7 @@ use wheatstone_golden::interface::Direction;
 /// cycles count on from the first reset.
 pub struct Bench {
     model: Model,
-    /// Whether it has not been reset yet.
+    /// True if it has not been reset yet.
     fresh: bool,
     cycle: u64,
     random: fastrand::Rng,

@@ -1,4 +1,4 @@
-//! Why there is no model, or no waveform of it.
+//! Errors of building, loading and tracing a model.
 
 use crate::ports::PortError;
 use crate::sources;
@@ -21,7 +21,7 @@ pub enum BuildError {
     Source {
         /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// The cache could not be written.
@@ -29,7 +29,7 @@ pub enum BuildError {
     Cache {
         /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// The module's ports are not those of its interface.
@@ -94,7 +94,7 @@ pub enum LoadError {
     Object {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: libloading::Error,
     },
     /// There is no room for a copy of it.
@@ -102,7 +102,7 @@ pub enum LoadError {
     Copy {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: std::io::Error,
     },
     /// The file is not the one that was built.
@@ -119,7 +119,7 @@ pub enum LoadError {
     Start {
         /// The module.
         module: String,
-        /// What happened.
+        /// The message of the model.
         message: String,
     },
 }
@@ -130,6 +130,6 @@ pub enum LoadError {
 pub struct TraceError {
     /// The file.
     pub path: PathBuf,
-    /// Why, where the system said so.
+    /// The cause, where the system gave one.
     pub source: Option<std::io::Error>,
 }

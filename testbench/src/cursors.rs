@@ -1,13 +1,14 @@
-//! Where the streams of a run are in their tables.
+//! Positions of the streams of a run in their tables.
 //!
 //! The shim compares rows and moves the cursors, so they hold pointers; [`crate::model`] relies
 //! on what is kept here: a cursor is always at a whole row of its stream, or at the end of its
 //! table, where nothing is read. Tables outlive their cursors.
 
-use crate::model::Library;
+use crate::layout::Layout;
 use std::marker::PhantomData;
+use std::sync::Arc;
 
-/// Where a stream is in its table: shared with the shim, which moves it.
+/// Position of a stream in its table: shared with the shim, which moves it.
 #[repr(C)]
 pub(crate) struct Cursor {
     row: *const u64,
@@ -34,14 +35,13 @@ pub(crate) struct Cursors<'a> {
     cursors: Vec<Cursor>,
     /// Rows that are not in a table, one a stream.
     own: Vec<Vec<u64>>,
-    library: Library,
+    layout: Arc<Layout>,
     tables: PhantomData<&'a [u64]>,
 }
 
 impl<'a> Cursors<'a> {
     /// Cursors at the beginning of the tables of all streams, which are given row after row.
-    pub fn new(library: &Library, tables: &[Option<&'a [u64]>]) -> Cursors<'a> {
-        let layout = library.layout();
+    pub fn new(layout: &Arc<Layout>, tables: &[Option<&'a [u64]>]) -> Cursors<'a> {
         let streams = layout.streams.iter().chain(layout.probed.iter().map(|(_, stream)| stream));
         let own: Vec<Vec<u64>> = streams.map(|stream| vec![0; stream.width]).collect();
         assert!(own.iter().all(|row| row.len() <= WORDS), "a stream has too many fields");
@@ -62,7 +62,7 @@ impl<'a> Cursors<'a> {
             }
         };
         let cursors = own.iter().enumerate().map(cursor).collect();
-        Cursors { cursors, own, library: library.clone(), tables: PhantomData }
+        Cursors { cursors, own, layout: layout.clone(), tables: PhantomData }
     }
 
     /// The row of a stream without a table, which `write` fills in, unless it declines.
@@ -76,8 +76,8 @@ impl<'a> Cursors<'a> {
 
     /// The cursors, for a call into the shim of the model that they were made for.
     #[inline]
-    pub fn of(&mut self, library: &Library) -> *mut Cursor {
-        assert!(self.library.is(library), "cursors of another model");
+    pub fn of(&mut self, layout: &Arc<Layout>) -> *mut Cursor {
+        assert!(Arc::ptr_eq(&self.layout, layout), "cursors of another model");
         self.cursors.as_mut_ptr()
     }
 }

@@ -14,7 +14,7 @@ use wheatstone_golden::files::{self, Scratch, WriteError};
 use wheatstone_golden::text::printable_path;
 use wheatstone_process::{Output, Process, ProcessError};
 
-/// Why a flow of open tools came to no result.
+/// A flow of open tools came to no result.
 #[derive(Debug, Error)]
 pub enum FlowError {
     /// A tool is missing.
@@ -25,7 +25,7 @@ pub enum FlowError {
     Read {
         /// Which one.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// A file could not be written.
@@ -41,7 +41,7 @@ pub enum FlowError {
         tool: &'static str,
         /// Which module.
         module: String,
-        /// What it said.
+        /// The first lines of its output.
         lines: String,
     },
     /// An entry of the list of planted bugs is wrong.
@@ -49,7 +49,7 @@ pub enum FlowError {
     Bug {
         /// Which one.
         what: String,
-        /// Why.
+        /// The cause.
         why: String,
     },
 }
@@ -74,7 +74,7 @@ pub(crate) fn set_parameters(module: &str, parameters: &[(impl AsRef<str>, u32)]
     }
 }
 
-/// What `find` finds of a module, kept in the folder `cache` under a hash of the sources and of `inputs`:
+/// The result of `find` for a module, kept in the folder `cache` under a hash of the sources and of `inputs`:
 /// everything else that the result depends on. A result that `keep` refuses is not kept: that of a tool which
 /// was stopped depends on how busy the machine was.
 pub(crate) fn cached<T: Serialize + DeserializeOwned>(
@@ -134,7 +134,7 @@ impl Folder {
         Ok(folder)
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -189,7 +189,7 @@ impl Folder {
         self.failed(tool, &format!("ERROR: it ended well, but wrote no {name}\n{said}"))
     }
 
-    /// What a command says and how it ends; it is stopped when it and all that it has started have used so much
+    /// Output and end of a command; it is stopped when it and all that it has started have used so much
     /// processor time together, see [`Output::is_stopped`].
     pub fn limited(
         &self,

@@ -2,12 +2,12 @@
 //! tables in the pages of `docs/`.
 
 use crate::baseline::{area_table, row_tables, Areas, Recorded};
-use crate::cli;
 use crate::mutation::record::Scores;
 use crate::prove::record;
+use crate::record::RecordError;
 use crate::settings::{SettingError, Settings};
-use crate::synth::record::{Record, RecordError};
-use crate::verification::{self, VerificationError};
+use crate::synth::record::Record;
+use crate::verification;
 use std::fmt::Write;
 use std::path::Path;
 use thiserror::Error;
@@ -40,7 +40,7 @@ pub enum Generated {
     Verification,
 }
 
-/// Why a file could not be generated.
+/// A file could not be generated.
 #[derive(Debug, Error)]
 pub enum GenerateError {
     /// A page has no place for its table.
@@ -57,15 +57,9 @@ pub enum GenerateError {
     /// A scene of the theory page cannot be drawn.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// There is no record of area and timing.
+    /// A record cannot be read.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// There is no record of what is proved.
-    #[error(transparent)]
-    Proofs(#[from] record::RecordError),
-    /// There is no record of coverage and replay.
-    #[error(transparent)]
-    Verification(#[from] VerificationError),
 }
 
 /// Line after a generated part of a page.
@@ -200,7 +194,7 @@ fn cost_table() -> String {
     table
 }
 
-/// What is rendered for the theory page, as `wheatstone render` is told.
+/// Options of the renderings for the theory page, as of `wheatstone render`.
 const RENDERED: [&str; 26] = [
     "--scene teapot",
     "--scene teapot --param cost_rule=off",
@@ -269,7 +263,7 @@ fn rendered(options: &str, workspace: &Path) -> Result<[Quality; 2], GenerateErr
     let scene = scene::open(name, None, rig.as_deref())?;
     let formats = Formats::new(&settings.config);
     let geometry = scene.geometry(&formats, &scene::Options::default())?;
-    let job = cli::job(&settings, &geometry, settings.options);
+    let job = settings.job(&geometry);
     let (direct, (frames, _)) = (job.direct(), job.derived(minimal));
     Ok(Eye::BOTH
         .map(|eye| Quality::of(&job, eye, &frames.eyes[eye as usize], &direct[eye as usize])))

@@ -1,4 +1,4 @@
-//! What is to be run: tables, stalls, limits, and who answers requests.
+//! A job: tables, stalls, limits, and the responder.
 
 use crate::layout::{Layout, Probe};
 use crate::stalls::Stalls;
@@ -49,7 +49,7 @@ impl Default for Limits {
     }
 }
 
-/// What is to be run.
+/// A run of a model: its stimulus, expected beats and stalls.
 ///
 /// An input with a table that `answers` a stream of requests offers its n-th beat once the n-th
 /// request was taken; a [`Responder`] takes the place of the table.
@@ -76,11 +76,11 @@ pub enum JobError {
     /// A wrong number of something.
     #[error("{what}: {found} given, the interface has {expected}")]
     Count {
-        /// What.
+        /// Kind of the tables or values.
         what: &'static str,
-        /// How many the interface has.
+        /// Number that the interface has.
         expected: usize,
-        /// How many were given.
+        /// Number that was given.
         found: usize,
     },
     /// A table has another number of fields than its stream.
@@ -99,7 +99,7 @@ pub enum JobError {
 }
 
 impl Job<'_> {
-    /// Whether the job fits the module.
+    /// Checks that the job fits the module.
     pub(crate) fn check(
         &self,
         interface: &Interface,

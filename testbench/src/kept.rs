@@ -1,4 +1,4 @@
-//! What the caches keep, checked whenever it is used: it is evidence, or code that is run in this process.
+//! The contents of the caches, checked whenever they are used: evidence, or code that is run in this process.
 //!
 //! A digest over content and key stands beside the content. What was changed, cut short, or belongs to
 //! another key is as if it were not there; that it was there is told.
@@ -14,9 +14,9 @@ const DIGEST: &str = "blake3";
 /// Most bytes of a file that is kept.
 pub(crate) const LIMIT: u64 = 1 << 30;
 
-/// What was found under a key.
+/// Result of a search in a cache.
 pub(crate) enum Kept<T> {
-    /// What was kept.
+    /// The content, as it was kept.
     Sound(T),
     /// Something else.
     Damaged,
@@ -97,7 +97,7 @@ pub(crate) fn text(file: &Path, key: &str) -> Kept<String> {
     sound().map_or(Kept::Damaged, Kept::Sound)
 }
 
-/// Whether these bytes are an object file to its end: the table of sections is near it. One that is cut
+/// True if these bytes are an object file to its end: the table of sections is near it. One that is cut
 /// short is a deadly signal when it is loaded.
 pub(crate) fn is_whole_object(content: &[u8]) -> bool {
     let number = |at: usize, bytes: usize| {

@@ -9,7 +9,7 @@ use wheatstone_golden::interface::{Direction, Interface, Stream};
 /// A unit inside a system whose streams are watched.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Probe {
-    /// Where it is below the system's module, generate blocks included: `g_edges.u_edge`.
+    /// Path below the system's module, generate blocks included: `g_edges.u_edge`.
     pub instance: String,
     /// Its Verilog module.
     pub module: &'static str,
@@ -39,7 +39,7 @@ pub(crate) struct Signal {
 /// The signals of a stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct StreamSignals {
-    /// Whether the module takes or sends the beats.
+    /// Direction of the beats, as the module sees it.
     pub direction: Direction,
     /// Number of fields of a beat.
     pub width: usize,
@@ -91,7 +91,7 @@ impl StreamSignals {
 pub(crate) struct Layout {
     /// Ports of the module first, then those of the probes.
     pub signals: Vec<Signal>,
-    /// How many of the signals are ports of the module.
+    /// Number of the signals that are ports of the module.
     pub ports: usize,
     /// Streams of the module.
     pub streams: Vec<StreamSignals>,

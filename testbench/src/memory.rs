@@ -1,12 +1,17 @@
 //! The memory beside a system: frame buffers that take its pixels and answer its reads.
 
 use crate::job::Responder;
-use crate::regression::MemoryFault;
+use crate::outcome::Difference;
 use fastrand::Rng;
 use std::collections::VecDeque;
-use wheatstone_golden::frame::Frames;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::formats::{Depth, Eye, Formats, Quantity};
+use wheatstone_golden::frame::{Frame, Frames};
 use wheatstone_golden::interface::{Beat, Interface, Table};
 use wheatstone_golden::pipeline::{Pixel, Request, Response};
+
+/// Colour and depth in a frame buffer are as wide in all configurations.
+const FORMATS: Formats = Formats::new(&Config::DEFAULT);
 
 /// Longest random latency, in clocks.
 const LONGEST: u64 = 24;
@@ -37,7 +42,7 @@ struct Read {
     due: u64,
 }
 
-/// What a stream of the system is to the memory.
+/// The part that a stream of the system has for the memory.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Role {
     Request,
@@ -113,4 +118,68 @@ impl Responder for Memory {
         self.answered += 1;
         true
     }
+}
+
+/// A difference in the frame buffers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MemoryFault {
+    /// A background read gave something else than the golden model read.
+    Stale {
+        /// Number of the read.
+        read: u64,
+        /// Colour and depth that the golden model read.
+        expected: Response,
+        /// Colour and depth that the memory held.
+        actual: Response,
+    },
+    /// A pixel of a frame buffer differs at the end.
+    Pixel {
+        /// Whose.
+        eye: Eye,
+        /// Column.
+        x: u32,
+        /// Row.
+        y: u32,
+        /// Colour and depth of the golden model.
+        expected: Response,
+        /// Colour and depth of the Verilog.
+        actual: Response,
+        /// Number of pixels that differ.
+        count: u64,
+    },
+}
+
+impl MemoryFault {
+    /// The fields that differ.
+    pub fn differences(&self) -> Vec<Difference> {
+        let (Self::Stale { expected, actual, .. } | Self::Pixel { expected, actual, .. }) = self;
+        let fields = Response::fields(&FORMATS);
+        let [expected, actual] = [expected, actual].map(|response| {
+            let mut row = Vec::new();
+            response.write(&mut row);
+            row
+        });
+        Difference::all(&fields, &expected, &actual)
+    }
+}
+
+/// Frame buffers that differ: the first pixel, and how many.
+pub(crate) fn compare_frames(golden: &Frames, actual: &Frames) -> Vec<MemoryFault> {
+    let mut faults = Vec::new();
+    for eye in Eye::BOTH {
+        let [golden, actual] = [golden, actual].map(|f| &f.eyes[eye as usize]);
+        let held = |frame: &Frame, n: usize| Response {
+            rgb: frame.colour[n],
+            depth: Depth::new(frame.depth[n].into(), &FORMATS),
+        };
+        let pixels = 0..golden.colour.len();
+        let mut different = pixels.filter(|&n| held(golden, n) != held(actual, n));
+        if let Some(first) = different.next() {
+            let (expected, actual) = (held(golden, first), held(actual, first));
+            let (x, y) = (first as u32 % golden.width, first as u32 / golden.width);
+            let count = 1 + different.count() as u64;
+            faults.push(MemoryFault::Pixel { eye, x, y, expected, actual, count });
+        }
+    }
+    faults
 }

@@ -1,4 +1,4 @@
-//! What a run found: everything equal, the first difference, or a model that hangs.
+//! Outcome of a run: everything equal, the first difference, or a model that hangs.
 
 use std::fmt;
 use wheatstone_golden::interface::{Direction, Field};
@@ -35,7 +35,7 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// How a run went.
+/// Counts of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Clocks from the start of the run to the last handshake, both included.
@@ -80,7 +80,7 @@ impl Counts {
     }
 }
 
-/// How one stream went.
+/// Counts of one stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StreamCount {
     /// Name of the stream.
@@ -130,7 +130,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is wrong.
+/// A kind of difference.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// A beat has other fields than expected.
@@ -193,9 +193,9 @@ impl fmt::Display for Difference {
 /// The first difference of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mismatch {
-    /// What is wrong.
+    /// Kind of the difference.
     pub fault: Fault,
-    /// Where.
+    /// Its place.
     pub place: Place,
     /// Number of the beat in its stream, from 0, counted from the start of the run.
     pub beat: u64,

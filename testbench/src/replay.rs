@@ -16,7 +16,7 @@ use wheatstone_golden::files::Scratch;
 use wheatstone_golden::text::printable_path;
 use wheatstone_process::{Output, Process, ProcessError};
 
-/// How a pack is replayed.
+/// A way to replay a pack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     /// The Verilog in Icarus, by the bench in the pack.
@@ -44,18 +44,18 @@ impl Way {
     }
 }
 
-/// What came of a replay.
+/// The result of a replay.
 #[derive(Clone, Debug)]
 pub struct Replayed {
-    /// Whether every output was equal in every bit.
+    /// True if every output was equal in every bit.
     pub passed: bool,
-    /// What the bench said: the first differences, the CRC of every output stream, the verdict.
+    /// Output of the bench: the first differences, the CRC of every output stream, the verdict.
     pub said: String,
     /// Time of compilation and simulation, synthesis left out.
     pub time: Duration,
 }
 
-/// Why a pack could not be replayed.
+/// A pack could not be replayed.
 #[derive(Debug, Error)]
 pub enum ReplayError {
     /// A tool is missing.
@@ -75,7 +75,7 @@ pub enum ReplayError {
     File {
         /// Which one.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// A tool did not run, or not to its end.
@@ -88,7 +88,7 @@ pub enum ReplayError {
         tool: &'static str,
         /// Which pack.
         pack: PathBuf,
-        /// What it said.
+        /// The first lines of its output.
         said: String,
     },
 }
@@ -133,7 +133,7 @@ impl Replayer {
 /// Name of the copy of a pack in the folder of a run, and of the copies of its Verilog.
 const PACK: &str = "pack";
 const VERILOG: &str = "rtl";
-/// What Icarus compiles.
+/// File that Icarus compiles to.
 const COMPILED: &str = "replay.vvp";
 
 /// One replay in a folder of its own.
@@ -221,7 +221,7 @@ impl Run<'_> {
         Ok(Process::new(tool.program, command.current_dir(self.folder)).on(pack).run()?)
     }
 
-    /// What the bench's last line says, and the exit status with it.
+    /// The verdict in the bench's last line, and the exit status with it.
     fn verdict(
         &self,
         tool: &'static Tool,
@@ -237,7 +237,7 @@ impl Run<'_> {
         Ok(Replayed { passed, said, time: start.elapsed() })
     }
 
-    /// Whether all beats of every output are said to have been compared: a module can print PASS too.
+    /// True if all beats of every output are said to have been compared: a module can print PASS too.
     fn compared_all(&self, said: &str) -> bool {
         let mut outputs = self.pack.manifest.ports.iter().filter(|port| port.direction == "output");
         outputs.all(|Port { name, crc32, beats, .. }| {

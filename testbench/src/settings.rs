@@ -1,9 +1,10 @@
-//! What the command line chooses: build parameters of the hardware and choices of a run.
+//! Choices of the command line: build parameters of the hardware and choices of a run.
 
 use thiserror::Error;
 use wheatstone_golden::config::{Config, Parameter, ParameterError, PARAMETERS};
-use wheatstone_golden::scene;
+use wheatstone_golden::scene::{self, Geometry};
 use wheatstone_golden::setup::{Arrangement, Options, Sampling, Specular};
+use wheatstone_golden::stereo::Job;
 use wheatstone_golden::texture::Lookup;
 
 /// Choices of a run that are not built into the hardware, as the command line names them.
@@ -102,6 +103,11 @@ fn names() -> String {
 }
 
 impl Settings {
+    /// The job that draws the polygons of a scene.
+    pub fn job<'a>(&self, geometry: &'a Geometry) -> Job<'a> {
+        Job::of(geometry, self.config, self.options, self.lookup)
+    }
+
     /// The settings of a named configuration with parameters changed, each `NAME=VALUE`.
     pub fn new<S: AsRef<str>>(config: &str, parameters: &[S]) -> Result<Settings, SettingError> {
         let mut built = Config::named(config).ok_or_else(|| SettingError::Config(config.into()))?;

@@ -22,8 +22,8 @@ extern \"C\" FILE* wheatstone_nowhere();
 #define stderr wheatstone_nowhere()
 ";
 
-/// What every model includes after it. Reading this is most of the work of a compiler that does not optimise, so it
-/// is compiled once.
+/// Headers that every model includes after it. Reading them is most of the work of a compiler that does not
+/// optimise, so they are compiled once.
 pub(crate) const MODEL_HEADERS: &str = "#include <atomic>
 #include <cstdarg>
 #include <cstdlib>

@@ -27,7 +27,7 @@ pub(crate) type Sources = BTreeMap<String, Vec<u8>>;
 pub(crate) struct Unreadable {
     /// Which one.
     pub path: PathBuf,
-    /// Why.
+    /// The cause.
     pub source: io::Error,
 }
 
@@ -108,7 +108,7 @@ pub(crate) fn named_from(rtl: &Path, text: &str) -> String {
     named
 }
 
-/// What is hardware of it: without the properties.
+/// The hardware of it: without the properties.
 pub(crate) fn hardware(mut sources: Sources) -> Sources {
     for content in sources.values_mut() {
         let text = String::from_utf8_lossy(content);

@@ -1,4 +1,4 @@
-//! How fast the loop is, beside a loop in C++ on the same model with the same stimulus and the
+//! Speed of the loop, beside a loop in C++ on the same model with the same stimulus and the
 //! same stalls that checks nothing.
 
 use crate::bench::Bench;

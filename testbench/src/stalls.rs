@@ -4,7 +4,7 @@
 use bitvec::prelude::{BitVec, Lsb0};
 use fastrand::Rng;
 
-/// How often a stream is held up by the test bench.
+/// Frequency with which the test bench holds a stream up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pattern {
     /// Never.
@@ -26,7 +26,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// Those that inputs can have.
+    /// Patterns that inputs can have.
     pub const IDLE: [Pattern; 6] = [
         Pattern::None,
         Pattern::Random25,
@@ -35,7 +35,7 @@ impl Pattern {
         Pattern::Bursts,
         Pattern::Gaps,
     ];
-    /// Those that outputs can have: all patterns, the inputs' first.
+    /// Patterns that outputs can have: all, the inputs' first.
     pub const BACK_PRESSURE: [Pattern; 7] = {
         let [a, b, c, d, e, f] = Pattern::IDLE;
         [a, b, c, d, e, f, Pattern::UntilValid]

@@ -1,21 +1,20 @@
 //! The committed record of coverage and replay, and its tables in `docs/verification.md`.
 
 use crate::cover::{self, Bins, FileCoverage, Report, Share};
+use crate::record::{read_record, RecordError};
 use crate::replay::Way;
-use crate::synth::record::thousands;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use thiserror::Error;
+use std::path::Path;
 use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::targets::Target;
-use wheatstone_golden::text::printable_path;
+use wheatstone_golden::text::Grouped;
 
-/// Where it is in the workspace.
+/// Path of the record in the workspace.
 pub const FILE: &str = "testbench/verification.json";
 
-/// What was measured last.
+/// The last measurements.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Record {
     /// Coverage of the Verilog's files.
@@ -33,7 +32,7 @@ pub struct Replay {
     pub pack: String,
     /// Name of the configuration.
     pub config: String,
-    /// How it was replayed.
+    /// Name of the way in which it was replayed.
     pub way: String,
     /// Beats of all streams.
     pub beats: u64,
@@ -45,34 +44,23 @@ impl Replay {
         self.pack.split('-').next().unwrap_or_default()
     }
 
-    /// Whether both are of the same pack in the same way.
+    /// True if both are of the same pack in the same way.
     fn is_same(&self, other: &Replay) -> bool {
         self.pack == other.pack && self.is_beside(other)
     }
 
-    /// Whether both are of the same target in the same way.
+    /// True if both are of the same target in the same way.
     fn is_beside(&self, other: &Replay) -> bool {
         let own = (self.target(), &self.config, &self.way);
         own == (other.target(), &other.config, &other.way)
     }
 }
 
-/// The record could not be read.
-#[derive(Debug, Error)]
-#[error("{}: {why}; write it with: wheatstone cover --record && wheatstone replay --record", printable_path(.path))]
-pub struct VerificationError {
-    path: PathBuf,
-    why: String,
-}
-
 impl Record {
     /// The record of a workspace.
-    pub fn read(workspace: &Path) -> Result<Record, VerificationError> {
-        let path = workspace.join(FILE);
-        let parsed = files::read_own(&path)
-            .map_err(|error| error.to_string())
-            .and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
-        parsed.map_err(|why| VerificationError { path, why })
+    pub fn read(workspace: &Path) -> Result<Record, RecordError> {
+        let remedy = "write it with: wheatstone cover --record && wheatstone replay --record";
+        read_record(workspace, FILE, remedy)
     }
 
     /// Writes it.
@@ -102,7 +90,7 @@ impl Record {
         files.chain(self.crossing.iter().flat_map(of_row)).collect()
     }
 
-    /// Where less is covered now, or more waived, than here, a line each; also what is only in one of both.
+    /// Files where less is covered now, or more waived, than here, a line each; also what is only in one of both.
     pub fn cover_faults(&self, now: &Record) -> Vec<String> {
         let [recorded, found] = [self, now].map(Record::shares);
         let names: BTreeSet<&String> = recorded.keys().chain(found.keys()).collect();
@@ -203,7 +191,7 @@ impl Record {
                     let name = (*pack, *config, way.name());
                     let of = |r: &&Replay| (&*r.pack, &*r.config, &*r.way) == name;
                     let replay = self.replays.iter().find(of);
-                    replay.map_or("–".into(), |r| format!("{} beats", thousands(r.beats as f64)))
+                    replay.map_or("–".into(), |r| format!("{} beats", Grouped(r.beats)))
                 });
                 let cells = cells.join(" | ");
                 // Writing to a string cannot fail.

@@ -1,4 +1,4 @@
-//! What is being simulated: told by a supervisor if this process vanishes, and watched by a thread of its own,
+//! Models at work: told by a supervisor if this process vanishes, and watched by a thread of its own,
 //! as a model that does not come to the end of a clock cannot be called off.
 
 use rustix::thread::gettid;
@@ -21,7 +21,7 @@ const LIMIT: Duration = Duration::from_secs(20);
 /// Time that the thread of a model may sleep on one clock, unless `--timeout` says otherwise: longer than a slow disk
 /// keeps it.
 const ASLEEP: Duration = Duration::from_secs(120);
-/// How often the models are looked at.
+/// Time between two looks at the models.
 const LOOK: Duration = Duration::from_millis(500);
 
 /// A model at work.
@@ -32,7 +32,7 @@ struct Entry {
     stay: Mutex<Stay>,
 }
 
-/// How long a model may stay on one clock.
+/// Time that a model may stay on one clock.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
     processor: Duration,
@@ -61,7 +61,7 @@ struct Stay {
     told: Duration,
 }
 
-/// What is to be done about a stay.
+/// The consequence of a stay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Finding {
     /// It lasts: tell.
@@ -167,7 +167,7 @@ fn watch() {
     }
 }
 
-/// What the user is told of a model.
+/// The message about a model.
 fn told(what: &str, finding: Finding, limits: Limits) -> String {
     let [processor, asleep] = [limits.processor, limits.asleep].map(|limit| limit.as_secs());
     let end = match finding {
@@ -200,7 +200,7 @@ impl Entry {
     }
 }
 
-/// Where a supervisor reads what this process is at.
+/// File in which a supervisor reads what this process is at.
 static RECORD: OnceLock<File> = OnceLock::new();
 
 /// Bytes of a record: the exit status on a line, then a line for each model at work.
@@ -248,7 +248,7 @@ pub(crate) fn end(status: u8) -> ! {
     })
 }
 
-/// What a record says: the exit status, and what is simulated.
+/// Reads a record: the exit status, and what is simulated.
 pub(crate) fn parse(record: &[u8]) -> (Option<u8>, Vec<String>) {
     let (status, rest) = record.split_at(STATUS_SIZE.min(record.len()));
     let status = std::str::from_utf8(status).ok().and_then(|text| text.trim().parse().ok());
@@ -264,7 +264,7 @@ mod tests {
     const LIMITS: Limits =
         Limits { processor: Duration::from_secs(20), asleep: Duration::from_secs(120) };
 
-    /// What comes of a stay on one clock, a look after another: the number of the look, from 1, and the finding.
+    /// The findings about a stay on one clock, a look after another: the number of the look, from 1, and the finding.
     fn findings(looks: impl IntoIterator<Item = (u64, bool)>) -> Vec<(usize, Finding)> {
         let mut stay = Stay::default();
         let mut found = Vec::new();

@@ -21,10 +21,10 @@ use wheatstone_golden::text::printable_path;
 
 /// Room that a dump must have while it is written; the largest take a hundredth of it.
 const ROOM: usize = 32 << 20;
-/// Where the C library makes unnamed temporary files, whatever the environment says.
+/// Folder in which the C library makes unnamed temporary files, whatever the environment says.
 const UNNAMED: &str = "/tmp";
 
-/// What a view shows.
+/// The contents of a view.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     /// The module that was simulated.
@@ -56,7 +56,7 @@ pub enum WaveError {
     Dump {
         /// The dump.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         why: String,
     },
     /// The dump has no values: it was never completed, or its window was never reached.
@@ -67,7 +67,7 @@ pub enum WaveError {
     Room {
         /// The temporary folder.
         folder: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// A file could not be written.
@@ -75,7 +75,7 @@ pub enum WaveError {
     Write {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
 }
@@ -120,7 +120,7 @@ impl Dump {
         Ok(Dump { folder: Scratch::new(&folder).map_err(at(&folder))?, cycles })
     }
 
-    /// What the simulation is to write.
+    /// The part of the run that the simulation writes.
     pub fn window(&self) -> TraceWindow {
         let path = self.folder.path().join("dump.fst");
         TraceWindow { path, from_cycle: *self.cycles.start(), to_cycle: *self.cycles.end() }

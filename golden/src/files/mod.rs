@@ -4,6 +4,7 @@
 //! leaves what was there before or what is new; only a temporary file or folder may stay, which the next run
 //! in its folder removes.
 
+mod error;
 mod lock;
 mod publish;
 mod read;
@@ -13,6 +14,7 @@ mod temporary;
 mod waiting;
 mod write;
 
+pub use error::WriteError;
 pub use lock::{Lock, LockError};
 pub use publish::publish;
 pub use read::{irregular, read, read_own, ReadError, OWN_LIMIT};
@@ -20,7 +22,7 @@ pub use scratch::{Scratch, Tidy};
 pub use set::Set;
 pub use temporary::remove_temporary;
 pub use waiting::on_wait;
-pub use write::{replaced, write, WriteError};
+pub use write::{replaced, write};
 
 use std::fs::{File, FileType};
 use std::io;

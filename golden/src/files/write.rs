@@ -2,6 +2,7 @@
 
 use super::scratch::{self, Tidy};
 use super::waiting::Waiting;
+use super::WriteError;
 use crate::text::printable_path;
 use rustix::event::{poll, PollFd, PollFlags, Timespec};
 use rustix::fs::OFlags;
@@ -15,16 +16,6 @@ use std::time::Duration;
 
 /// Links to links that are followed, as many as Linux does.
 const LINKS: usize = 40;
-
-/// Why a file was not written.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be written: {source}", printable_path(.file))]
-pub struct WriteError {
-    /// The file.
-    pub file: PathBuf,
-    /// Why.
-    pub source: io::Error,
-}
 
 /// Writes a file: under a temporary name beside it, to the disk, then renamed. Folders that are missing are
 /// made, so that nobody loses what took long for want of one. Of a symbolic link, the file that it leads to is

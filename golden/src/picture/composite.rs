@@ -1,17 +1,8 @@
 //! Two views in one picture: for glasses, for free viewing, for print, and as displays store them.
 
-use super::{write_png_at, write_wiggle, Rgb, RgbImage};
+use super::{write_png_at, write_wiggle, Rgb, RgbImage, Views};
 use crate::files::WriteError;
 use std::path::Path;
-
-/// The pictures of the two eyes.
-#[derive(Clone, Copy, Debug)]
-pub struct Views<'a> {
-    /// What the left eye sees.
-    pub left: &'a RgbImage,
-    /// What the right eye sees; of the same size.
-    pub right: &'a RgbImage,
-}
 
 /// A way to show two views in one picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,6 +10,15 @@ pub use image::{Rgb, RgbImage};
 use crate::formats::Rgba;
 use crate::frame::Frame;
 
+/// The pictures of the two eyes.
+#[derive(Clone, Copy, Debug)]
+pub struct Views<'a> {
+    /// What the left eye sees.
+    pub left: &'a RgbImage,
+    /// What the right eye sees; of the same size.
+    pub right: &'a RgbImage,
+}
+
 /// The colour that stands for a polygon in id pictures: 1 + id as red << 16 | green << 8 | blue,
 /// and black for the background. Ids are below 2^24 - 1.
 pub fn id_colour(id: Option<u32>) -> Rgb<u8> {

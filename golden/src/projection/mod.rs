@@ -11,17 +11,21 @@
 //! centres, shear, translation), Duvanenko and Robbins 1993 (translation, the display's units), NASA
 //! 1992 (asymptotic, piecewise, clipping).
 
+mod error;
 mod field_of_view;
 mod map;
 mod matrix;
 mod parameters;
+mod viewing;
 
+pub(crate) use error::{check_length, shown};
+pub use error::{RigError, COORDINATE_LIMIT};
 pub use field_of_view::{Clipping, FieldOfView, Screen};
 pub use map::{Device, DistanceMap, Viewer};
 pub use matrix::{multiply, transform, Matrix, ProjectionMatrix};
 pub use parameters::{Asymptotic, Partition, Piecewise};
+pub use viewing::Viewing;
 
-use crate::scene::{Rig, RigError};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
@@ -151,66 +155,65 @@ impl Projection {
     }
 
     /// The viewer and screen of a rig.
-    pub fn viewer(&self, rig: &Rig) -> Viewer {
+    pub fn viewer(&self, viewing: &Viewing) -> Viewer {
         let (eye_distance, screen_distance) = match self {
             Projection::Asymptotic(a) => (a.eye_distance, a.screen_distance),
             Projection::Piecewise(p) => (p.eye_distance, p.screen_distance),
             _ => (None, None),
         };
-        let d = rig.viewing_distance;
+        let d = viewing.viewing_distance;
         let screen_distance = screen_distance.unwrap_or(d);
-        let in_proportion = || rig.eye_separation * (screen_distance / d);
+        let in_proportion = || viewing.eye_separation * (screen_distance / d);
         Viewer { eye_distance: eye_distance.unwrap_or_else(in_proportion), screen_distance }
     }
 
     /// The nearest distance that is drawn, where the projection says so.
-    pub fn near(&self, rig: &Rig) -> Option<f64> {
+    pub fn near(&self, viewing: &Viewing) -> Option<f64> {
         match self {
-            Projection::Asymptotic(a) => a.min_distance.map(|min| a.map(rig).scene(min)),
-            Projection::Piecewise(p) => p.partitions(rig).first().map(|p| p.near),
+            Projection::Asymptotic(a) => a.min_distance.map(|min| a.map(viewing).scene(min)),
+            Projection::Piecewise(p) => p.partitions(viewing).first().map(|p| p.near),
             _ => None,
         }
     }
 
     /// The farthest distance that is drawn, where the projection says so.
-    pub fn far(&self, rig: &Rig) -> Option<f64> {
+    pub fn far(&self, viewing: &Viewing) -> Option<f64> {
         match self {
-            Projection::Piecewise(p) => p.partitions(rig).last().map(|p| p.far),
+            Projection::Piecewise(p) => p.partitions(viewing).last().map(|p| p.far),
             _ => None,
         }
     }
 
-    /// The ranges that are projected, the nearest first, cut to the rig's near and far planes. The
-    /// rig is one that passed [`Rig::check`].
-    pub fn ranges(&self, rig: &Rig) -> Vec<Range> {
-        let (near, far) = (rig.near(), rig.far());
+    /// The ranges that are projected, the nearest first, cut to the near and far planes of a rig. Its values and
+    /// these parameters passed their checks.
+    pub fn ranges(&self, viewing: &Viewing, [near, far]: [f64; 2]) -> Vec<Range> {
         match self {
             Projection::Piecewise(p) => {
-                let partitions = p.partitions(rig).into_iter().map(|p| Range {
+                let partitions = p.partitions(viewing).into_iter().map(|p| Range {
                     near: p.near.max(near),
                     far: p.far.min(far),
                     map: p.map(),
                 });
                 partitions.filter(|range| range.near < range.far).collect()
             }
-            Projection::Asymptotic(a) => vec![Range { near, far, map: a.map(rig) }],
+            Projection::Asymptotic(a) => vec![Range { near, far, map: a.map(viewing) }],
             _ => vec![Range { near, far, map: DistanceMap::IDENTITY }],
         }
     }
 
     /// Refuses parameters that make no sense with a rig whose own values do.
-    pub fn check(&self, rig: &Rig) -> Result<(), RigError> {
+    pub fn check(&self, viewing: &Viewing) -> Result<(), RigError> {
         match self {
             Projection::TwoCentres | Projection::Shear | Projection::Translate => Ok(()),
             Projection::Symmetric => {
-                if rig.head_tilt != 0.0 {
+                if viewing.head_tilt != 0.0 {
                     let expected = "0 with projection symmetric, which cuts columns off";
-                    return Err(RigError::new("head_tilt", expected, rig.head_tilt));
+                    return Err(RigError::new("head_tilt", expected, viewing.head_tilt));
                 }
                 Ok(())
             }
-            Projection::Asymptotic(a) => a.check(rig),
-            Projection::Piecewise(p) => p.check(rig),
+            Projection::Asymptotic(a) => a.check(viewing),
+            Projection::Piecewise(p) => p.check(viewing),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Parameters of the projections, their defaults, and what of them makes no sense.
 
+use super::error::{check_length, RigError};
 use super::map::DistanceMap;
-use crate::scene::{check_length, Rig, RigError};
+use super::viewing::Viewing;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
@@ -84,30 +85,30 @@ fn check_limit(field: &str, value: f64) -> Result<(), RigError> {
 }
 
 impl Asymptotic {
-    fn screen_distance(&self, rig: &Rig) -> f64 {
-        self.screen_distance.unwrap_or(rig.viewing_distance)
+    fn screen_distance(&self, viewing: &Viewing) -> f64 {
+        self.screen_distance.unwrap_or(viewing.viewing_distance)
     }
 
-    fn screen_intercept(&self, rig: &Rig) -> f64 {
-        self.screen_intercept.unwrap_or(rig.viewing_distance)
+    fn screen_intercept(&self, viewing: &Viewing) -> f64 {
+        self.screen_intercept.unwrap_or(viewing.viewing_distance)
     }
 
-    fn max_distance(&self, rig: &Rig) -> f64 {
-        self.max_distance.unwrap_or(2.0 * self.screen_distance(rig))
+    fn max_distance(&self, viewing: &Viewing) -> f64 {
+        self.max_distance.unwrap_or(2.0 * self.screen_distance(viewing))
     }
 
     /// The map for a rig.
-    pub fn map(&self, rig: &Rig) -> DistanceMap {
-        let (si, sd) = (self.screen_intercept(rig), self.screen_distance(rig));
-        DistanceMap::asymptotic(si, sd, self.max_distance(rig))
+    pub fn map(&self, viewing: &Viewing) -> DistanceMap {
+        let (si, sd) = (self.screen_intercept(viewing), self.screen_distance(viewing));
+        DistanceMap::asymptotic(si, sd, self.max_distance(viewing))
     }
 
     /// Refuses what nothing can be projected with.
-    pub fn check(&self, rig: &Rig) -> Result<(), RigError> {
-        check_length("asymptotic.screen_intercept", self.screen_intercept(rig))?;
-        let sd = self.screen_distance(rig);
+    pub fn check(&self, viewing: &Viewing) -> Result<(), RigError> {
+        check_length("asymptotic.screen_intercept", self.screen_intercept(viewing))?;
+        let sd = self.screen_distance(viewing);
         check_length("asymptotic.screen_distance", sd)?;
-        let max = self.max_distance(rig);
+        let max = self.max_distance(viewing);
         check_limit("asymptotic.max_distance", max)?;
         if max <= sd {
             let expected = format!("more than the screen's distance, {sd}");
@@ -171,27 +172,27 @@ impl Piecewise {
     }
 
     /// The partitions for a rig.
-    pub fn partitions(&self, rig: &Rig) -> Vec<Partition> {
+    pub fn partitions(&self, viewing: &Viewing) -> Vec<Partition> {
         if !self.partitions.is_empty() {
             return self.partitions.clone();
         }
-        let d = rig.viewing_distance;
+        let d = viewing.viewing_distance;
         // A scene that ends before the last partition begins does without it.
-        let far = rig.far.unwrap_or(100.0 * d).max(2.0 * d);
+        let far = viewing.far.unwrap_or(100.0 * d).max(2.0 * d);
         let mut partitions = Piecewise::four(d, self.screen_distance.unwrap_or(d), far);
         partitions.retain(|p| p.near < p.far);
         partitions
     }
 
     /// Refuses what nothing can be projected with.
-    pub fn check(&self, rig: &Rig) -> Result<(), RigError> {
+    pub fn check(&self, viewing: &Viewing) -> Result<(), RigError> {
         for (field, value) in [
             ("piecewise.screen_distance", self.screen_distance),
             ("piecewise.eye_distance", self.eye_distance),
         ] {
             value.map_or(Ok(()), |value| check_length(field, value))?;
         }
-        let partitions = self.partitions(rig);
+        let partitions = self.partitions(viewing);
         for (index, partition) in partitions.iter().enumerate() {
             partition.check(index)?;
         }

@@ -14,6 +14,7 @@
 use super::camera::{Camera, Lens, Snapped};
 use super::clip::{clip_all, Corner};
 use super::cut::{cut, is_convex_polygon, Crossing, Cut};
+use super::error::{check_size, SceneError};
 use super::geometry::{Counts, Cull, Geometry, Options};
 use super::mesh::Mesh;
 use super::rig::HalfSpace;
@@ -26,6 +27,24 @@ use crate::progress::over;
 use crate::setup::{Eyes, Polygon, Vertex};
 use crate::texture::Texture;
 use std::rc::Rc;
+
+impl Scene {
+    /// Lights, projects, clips and snaps the scene.
+    ///
+    /// Fails if the views exceed the formats or a mesh contradicts itself.
+    pub fn geometry(&self, formats: &Formats, options: &Options) -> Result<Geometry, SceneError> {
+        check_size(self.width, self.height, formats.max_size)?;
+        self.check()?;
+        let scissor = self.rig.scissor(self.width)?;
+        let mut builder = Builder::new(self, formats, options);
+        let mut first_id = 0;
+        for mesh in &self.meshes {
+            builder.mesh(mesh, first_id);
+            first_id += mesh.id_count() as u32;
+        }
+        Ok(builder.finish(scissor))
+    }
+}
 
 /// What the polygons of a mesh have in common.
 #[derive(Clone, Copy)]

@@ -1,17 +1,9 @@
 //! From places in the scene to places in the two views.
 
-use super::rig::{HalfSpace, Rig};
+use super::rig::{side, HalfSpace, Rig};
 use super::vector::{turn, Vec3};
 use crate::formats::{Eye, Formats, DEPTH_MAX};
 use crate::projection::{Kind, Range};
-
-/// 1 for the left and -1 for the right eye: the sign of the disparity that depth subtracts.
-pub(super) fn side(eye: Eye) -> f64 {
-    match eye {
-        Eye::Left => 1.0,
-        Eye::Right => -1.0,
-    }
-}
 
 /// A snapped point as both eyes see it, in subpixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,7 +59,7 @@ pub struct Lens {
 impl Camera {
     /// The camera of a rig for views of this size, which snaps as the formats say.
     pub fn new(rig: &Rig, width: u32, height: u32, formats: &Formats) -> Camera {
-        let ranges = rig.projection.ranges(rig);
+        let ranges = rig.ranges();
         let lens = |range: &Range| Lens::new(rig, range, [width, height], formats);
         let mut lenses: Vec<Lens> = ranges.iter().map(lens).collect();
         for n in 1..lenses.len() {
@@ -134,7 +126,7 @@ impl Camera {
 
 impl Lens {
     fn new(rig: &Rig, range: &Range, size: [u32; 2], formats: &Formats) -> Lens {
-        let viewer = rig.projection.viewer(rig);
+        let viewer = rig.viewer();
         let direction = turn(rig.head_tilt / 360.0);
         let d = rig.viewing_distance;
         Lens {

@@ -3,12 +3,12 @@
 use super::locate::Locator;
 use crate::files::{self, ReadError};
 use crate::progress::Stage;
+use crate::projection::shown;
+pub use crate::projection::{RigError, COORDINATE_LIMIT};
 use crate::text::{self, printable, printable_path, TextError};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Largest magnitude of a coordinate or rig value; beyond it doubles no longer resolve subpixels.
-pub const COORDINATE_LIMIT: f64 = 1e9;
 /// Largest width and height of a view that any configuration draws, in pixels.
 pub const SIZE_LIMIT: u32 = 2048;
 /// Most triangles and faces of a scene: id pictures hold one more than an id in 24 bits.
@@ -64,44 +64,7 @@ impl InputError {
     }
 }
 
-/// A rig that nothing can be projected with.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field}: expected {expected}, found {}", shown(*.found))]
-pub struct RigError {
-    /// Name of the value, as in rig files: `piecewise.partitions[1].near`.
-    pub field: String,
-    /// What is allowed.
-    pub expected: String,
-    /// What it is.
-    pub found: f64,
-}
-
-/// A number with an exponent where it would be long without.
-pub(super) fn shown(n: f64) -> String {
-    let short = n == 0.0 || !n.is_finite() || (1e-9..1e15).contains(&n.abs());
-    if short {
-        n.to_string()
-    } else {
-        format!("{n:e}")
-    }
-}
-
 impl RigError {
-    /// An error of a value.
-    pub fn new(field: impl Into<String>, expected: impl Into<String>, found: f64) -> RigError {
-        RigError { field: field.into(), expected: expected.into(), found }
-    }
-
-    /// What was found, with an exponent where it would be long without.
-    pub fn found(&self) -> String {
-        let short = self.found == 0.0 || (1e-9..1e15).contains(&self.found.abs());
-        if short {
-            self.found.to_string()
-        } else {
-            format!("{:e}", self.found)
-        }
-    }
-
     /// The error at its field in a JSON file of this text.
     pub(super) fn within(&self, file: &Path, text: &str) -> InputError {
         let line = Locator::new(text).line_of(&self.field);

@@ -1,9 +1,6 @@
 //! What drawing receives of a scene, and the choices in making it.
 
-use super::builder::Builder;
-use super::error::{check_size, SceneError, ID_LIMIT};
-use super::Scene;
-use crate::formats::{Formats, Rgba};
+use crate::formats::Rgba;
 use crate::frame::Scissor;
 use crate::setup::Polygon;
 use crate::texture::Texture;
@@ -144,44 +141,4 @@ pub struct Geometry {
     pub scissor: Scissor,
     /// Where the triangles went.
     pub counts: Counts,
-}
-
-impl Scene {
-    /// Lights, projects, clips and snaps the scene.
-    ///
-    /// Fails if the views exceed the formats or a mesh contradicts itself.
-    pub fn geometry(&self, formats: &Formats, options: &Options) -> Result<Geometry, SceneError> {
-        check_size(self.width, self.height, formats.max_size)?;
-        self.check()?;
-        let scissor = self.rig.scissor(self.width)?;
-        let mut builder = Builder::new(self, formats, options);
-        let mut first_id = 0;
-        for mesh in &self.meshes {
-            builder.mesh(mesh, first_id);
-            first_id += mesh.id_count() as u32;
-        }
-        Ok(builder.finish(scissor))
-    }
-
-    /// Refuses what could not be drawn.
-    pub(super) fn check(&self) -> Result<(), SceneError> {
-        self.rig.check()?;
-        let lit = self.lighting.is_some();
-        let mut ids = 0;
-        for (index, mesh) in self.meshes.iter().enumerate() {
-            mesh.check(index, lit)?;
-            let wrong = |field, problem| Err(SceneError::Mesh { mesh: index, field, problem });
-            let Some(material) = self.materials.get(mesh.material as usize) else {
-                return wrong("material", format!("no material {}", mesh.material));
-            };
-            if material.texture.is_some_and(|n| n as usize >= self.textures.len()) {
-                return wrong("material", "no such texture".into());
-            }
-            ids += mesh.id_count();
-            if ids > ID_LIMIT {
-                return wrong("triangles", format!("more than {ID_LIMIT} in the scene"));
-            }
-        }
-        Ok(())
-    }
 }

@@ -1,11 +1,17 @@
 //! The two eyes and the screen.
 
-use super::camera::side;
-use super::error::{RigError, COORDINATE_LIMIT};
 use super::vector::{turn, Vec3};
 use crate::formats::Eye;
 use crate::frame::Scissor;
-use crate::projection::Projection;
+use crate::projection::{check_length, Projection, Range, RigError, Viewer, Viewing};
+
+/// 1 for the left and -1 for the right eye: the sign of the disparity that depth subtracts.
+pub(super) fn side(eye: Eye) -> f64 {
+    match eye {
+        Eye::Left => 1.0,
+        Eye::Right => -1.0,
+    }
+}
 
 /// Where the eyes are and how large the screen is; lengths are in the scene's own unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,26 +49,37 @@ impl Default for Rig {
     }
 }
 
-/// Refuses what is no length that anything can be projected with: from 1e-9 to 1e9.
-pub(crate) fn check_length(field: &str, found: f64) -> Result<(), RigError> {
-    let (least, most) = (1.0 / COORDINATE_LIMIT, COORDINATE_LIMIT);
-    if (least..=most).contains(&found) {
-        return Ok(());
-    }
-    Err(RigError::new(field, format!("a number from {least:e} to {most:e}"), found))
-}
-
 impl Rig {
     /// Distance from the eyes to the near plane.
     pub fn near(&self) -> f64 {
-        let projected = || self.projection.near(self);
+        let projected = || self.projection.near(&self.viewing());
         self.near.or_else(projected).unwrap_or(self.viewing_distance / 100.0)
     }
 
     /// Distance from the eyes to the far plane.
     pub fn far(&self) -> f64 {
-        let projected = || self.projection.far(self);
+        let projected = || self.projection.far(&self.viewing());
         self.far.or_else(projected).unwrap_or(self.viewing_distance * 100.0)
+    }
+
+    /// What its projection takes of it.
+    fn viewing(&self) -> Viewing {
+        Viewing {
+            eye_separation: self.eye_separation,
+            viewing_distance: self.viewing_distance,
+            far: self.far,
+            head_tilt: self.head_tilt,
+        }
+    }
+
+    /// The eyes and the screen, as the projection sees them.
+    pub fn viewer(&self) -> Viewer {
+        self.projection.viewer(&self.viewing())
+    }
+
+    /// The ranges of distances that are projected, the nearest first. The rig is one that passed [`Rig::check`].
+    pub fn ranges(&self) -> Vec<Range> {
+        self.projection.ranges(&self.viewing(), [self.near(), self.far()])
     }
 
     /// Refuses values that nothing can be projected with.
@@ -74,7 +91,7 @@ impl Rig {
             let expected = "an angle from -180 to 180 degrees";
             return Err(RigError::new("head_tilt", expected, self.head_tilt));
         }
-        self.projection.check(self)?;
+        self.projection.check(&self.viewing())?;
         self.check_planes()
     }
 
@@ -92,7 +109,7 @@ impl Rig {
             let expected = format!("more than near, which is {}", self.near());
             return Err(RigError::new("far", expected, self.far()));
         }
-        if self.projection.ranges(self).is_empty() {
+        if self.ranges().is_empty() {
             let expected = format!("a partition between near and far, {}", self.far());
             return Err(RigError::new("near", expected, self.near()));
         }

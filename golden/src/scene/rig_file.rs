@@ -49,17 +49,15 @@
 //! `colour` (default `[0.8, 0.8, 0.8]`; 1 is white) and the `ambient` light (default
 //! `[0.25, 0.25, 0.25]`). What is not given takes its default, and all other lights go.
 
-use super::error::{
-    check_size, shown, InputError, RigError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT,
-};
+use super::error::{check_size, InputError, RigError, SceneError, COORDINATE_LIMIT, SIZE_LIMIT};
 use super::json::{parse, Channel};
 use super::light::{Light, Lighting, Source};
 use super::locate::Locator;
 use super::place::Placement;
-use super::rig::{check_length, Rig};
+use super::rig::Rig;
 use super::vector::Vec3;
 use super::Scene;
-use crate::projection::{Asymptotic, Device, Kind, Piecewise, Projection};
+use crate::projection::{check_length, shown, Asymptotic, Device, Kind, Piecewise, Projection};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 

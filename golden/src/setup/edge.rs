@@ -2,7 +2,6 @@
 
 use super::linear::Linear;
 use super::polygon::{Polygon, MAX_VERTICES};
-use super::span::Reach;
 use crate::formats::{Eye, Formats};
 
 /// The corners of a polygon in one view, in subpixels; neighbours that fell together are merged.
@@ -69,6 +68,17 @@ impl Outline {
         turns_alike && changes <= 2
     }
 
+    /// Positions of the corners of the largest triangle of the fan from the first corner.
+    pub fn largest_fan_triangle(&self) -> [usize; 3] {
+        let points = self.points();
+        let area = |k: usize| {
+            let [[x0, y0], [x1, y1], [x2, y2]] = [points[0], points[k], points[k + 1]];
+            ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)).abs()
+        };
+        let best = (1..points.len() - 1).max_by_key(|&k| (area(k), usize::MAX - k)).unwrap_or(1);
+        [0, best, best + 1]
+    }
+
     /// Smallest and largest corner: `[[x, y], [x, y]]`.
     pub fn bounds(&self) -> [[i64; 2]; 2] {
         let mut bounds = [[i64::MAX; 2], [i64::MIN; 2]];
@@ -90,6 +100,22 @@ impl Outline {
             Edge::new(from, to, sign, &formats)
         })
     }
+}
+
+/// How far the visited pixels of a row reach, from the span [xl, xr] between its edges on the centre
+/// line, with anti-aliasing the span of the band of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Covered centres only.
+    Covered,
+    /// From floor(xl - 1/2) to ceil(xr - 1/2), for a polygon that the secondary pipeline follows.
+    Extended {
+        /// Pixels more on both sides.
+        widening: i64,
+        /// From 0 to 256: a pixel at the end is spared if its centre is more than 1 - `spared`/256
+        /// pixels from the edge.
+        spared: i64,
+    },
 }
 
 /// An edge function E(x, y) = a·x + b·y + k in subpixels, positive inside the polygon.

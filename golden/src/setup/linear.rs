@@ -1,6 +1,5 @@
 //! Functions that are linear over whole pixels.
 
-use super::edge::Outline;
 use crate::formats::FRACTION_BITS;
 
 /// f(i, j) = a·i + b·j + c for pixel (i, j). Sums wrap: hardware registers are narrower still, and
@@ -52,17 +51,6 @@ impl Plane {
         let y = corners.map(|c| i128::from(c[1]));
         let det = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
         Plane { x, y, det, subpixel_bits }
-    }
-
-    /// Positions in an outline of the corners of its largest fan triangle.
-    pub fn corners(outline: &Outline) -> [usize; 3] {
-        let points = outline.points();
-        let area = |k: usize| {
-            let [[x0, y0], [x1, y1], [x2, y2]] = [points[0], points[k], points[k + 1]];
-            ((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)).abs()
-        };
-        let best = (1..points.len() - 1).max_by_key(|&k| (area(k), usize::MAX - k)).unwrap_or(1);
-        [0, best, best + 1]
     }
 
     /// The attribute with these values at the corners, 14 fraction bits, half a unit added so that

@@ -155,7 +155,7 @@ impl Attributes {
     pub fn corners(polygon: &Polygon, eye: Eye) -> [Vertex; 3] {
         let outline = Outline::new(polygon, eye);
         // Merged corners have shifted the numbering: find the vertex of each corner again.
-        Plane::corners(&outline).map(|k| {
+        outline.largest_fan_triangle().map(|k| {
             let [x, y] = outline.points()[k];
             let here = |v: &&Vertex| {
                 i64::from(v.x[eye as usize]) == x && i64::from(v.y[eye as usize]) == y

@@ -1,6 +1,6 @@
 //! Which pixels of a scan line are visited.
 
-use super::edge::{Edge, Outline};
+use super::edge::{Edge, Outline, Reach};
 use super::polygon::MAX_VERTICES;
 use crate::formats::Formats;
 use alloc::vec::Vec;
@@ -182,22 +182,6 @@ impl View {
         let pairs = (0..count).flat_map(move |i| (i + 1..count).map(move |j| [i, j]));
         pairs.flat_map(move |[i, j]| (j + 1..count).map(move |k| [i, j, k]))
     }
-}
-
-/// How far the visited pixels of a row reach, from the span [xl, xr] between its edges on the centre
-/// line, with anti-aliasing the span of the band of samples.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reach {
-    /// Covered centres only.
-    Covered,
-    /// From floor(xl - 1/2) to ceil(xr - 1/2), for a polygon that the secondary pipeline follows.
-    Extended {
-        /// Pixels more on both sides.
-        widening: i64,
-        /// From 0 to 256: a pixel at the end is spared if its centre is more than 1 - `spared`/256
-        /// pixels from the edge.
-        spared: i64,
-    },
 }
 
 /// Which pixels of its rows a polygon visits.

@@ -61,7 +61,7 @@ impl Disparity {
         let inverse = [rig.near(), rig.far()].map(|w| 1.0 / w);
         let unit = (inverse[0] - inverse[1]) / f64::from(DEPTH_MAX);
         let depth = |w: f64| (inverse[0] - 1.0 / w) / unit;
-        let ranges = rig.projection.ranges(rig);
+        let ranges = rig.ranges();
         let mut stretches: Vec<Stretch> = ranges
             .iter()
             .map(|range| Stretch {
@@ -138,7 +138,7 @@ impl Disparity {
 
 /// Factor of 1/w and constant part of a range's disparity, to the right and down.
 fn axes(rig: &Rig, range: &Range, from: Eye) -> [[f64; 2]; 2] {
-    let viewer = rig.projection.viewer(rig);
+    let viewer = rig.viewer();
     let apart = if from == Eye::Left { -2.0 } else { 2.0 } * rig.pixels_per_unit;
     let scale = apart * viewer.screen_distance * viewer.projection_offset(&range.map);
     let constant = apart * viewer.viewport_offset(&range.map);

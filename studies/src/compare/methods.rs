@@ -1,6 +1,6 @@
 //! The methods that are compared.
 
-use super::{Judged, Method, Pair, Timed, Unsuited};
+use super::method::{Judged, Method, Pair, Timed, Unsuited};
 use crate::prepared::Prepared;
 use crate::timing::shortest;
 use std::time::Duration;

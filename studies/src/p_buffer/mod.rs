@@ -13,7 +13,7 @@ use crate::{Check, Experiment, Report, Row, StudyError, Table};
 use measure::{Measured, Office};
 use published::{FULL_RIGHT, POLYGONS, ROOMS, VISIBLE};
 use std::path::{Path, PathBuf};
-use times::Columns;
+use times::{rooms, Columns};
 use walk::Walk;
 
 /// The experiment.
@@ -54,11 +54,6 @@ const BOUND: &str =
 const FURNITURE: &str =
     "the publication shows pictures and prints no figure; the share depends on what \
     stands how near in the rooms: offices furnished otherwise gave 8.7 to 15.4 %";
-
-/// "1 room", "2 rooms".
-fn rooms(n: usize) -> String {
-    format!("{} room{}", n + 1, if n == 0 { "" } else { "s" })
-}
 
 fn polygons(measured: &[Measured]) -> Table {
     let rows = measured.iter().enumerate().flat_map(|(n, m)| {

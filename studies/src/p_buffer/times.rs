@@ -2,10 +2,14 @@
 
 use super::measure::Measured;
 use super::published::{FULL_LEFT, FULL_RIGHT, POLYGONS, P_BUFFER_LEFT, P_BUFFER_RIGHT, ROOMS};
-use super::rooms;
 use crate::errata::FIFTEEN_THOUSAND;
 use crate::timing::{at_least, at_most};
 use crate::{Check, Row, Table};
+
+/// "1 room", "2 rooms".
+pub(super) fn rooms(n: usize) -> String {
+    format!("{} room{}", n + 1, if n == 0 { "" } else { "s" })
+}
 
 /// Table 1 beside the times here, on a scale on which the first of them is the printed one.
 pub fn table(measured: &[Measured]) -> Table {

@@ -1,6 +1,6 @@
 //! Cases of the units without a history: coverage, blend, display, redirection.
 
-use super::Case;
+use super::case::Case;
 use fastrand::Rng;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;

@@ -1,6 +1,6 @@
 //! Cases of the units that gather a secondary pixel: sampler and filter.
 
-use super::Case;
+use super::case::Case;
 use fastrand::Rng;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;

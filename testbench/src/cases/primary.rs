@@ -1,6 +1,7 @@
 //! Cases of the primary pipeline, of its traversal, and of the monocular pipeline.
 
-use super::{systems, Case};
+use super::case::Case;
+use super::{polygons, shapes};
 use fastrand::Rng;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::*;
@@ -38,7 +39,7 @@ fn read<B: Beat>(row: &[u64], f: &Formats) -> B {
     B::read(&numbers.collect::<Vec<_>>())
 }
 
-/// What the models make of records.
+/// The case that the models make of records.
 fn of(target: Target, config: &Config, name: &str, width: u32, records: &[(Walk, Planes)]) -> Case {
     let f = Formats::new(config);
     let mut case = Case::empty(target, config, name);
@@ -78,7 +79,7 @@ pub fn for_pack(target: Target, config: &Config, seed: u64, beats: usize) -> Cas
 /// Records of random polygons, and the width of their view.
 fn random_records(config: &Config, seed: u64, beats: usize) -> (u32, Vec<(Walk, Planes)>) {
     let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
-    let (job, mut tape) = systems::random_tape(config, seed, beats, false);
+    let (job, mut tape) = polygons::random_tape(config, seed, beats, false);
     let recording = tape.take();
     let [walks, planes] = ["walk", "planes"].map(|stream| &recording.streams[stream]);
     let mut all = Vec::new();
@@ -272,7 +273,7 @@ impl Output for Noted {
     }
 }
 
-/// What the monocular pipeline draws of records for an eye.
+/// The case of records that the monocular pipeline draws for an eye.
 fn drawn(job: &Job, name: &str, eye: Eye, records: &[(Walk, Planes)]) -> Case {
     let mut case = Case::empty(Target::Mono, &job.config, name);
     case.statics = vec![job.width.into(), eye as u64];
@@ -287,7 +288,7 @@ fn drawn(job: &Job, name: &str, eye: Eye, records: &[(Walk, Planes)]) -> Case {
     Case { memory: Some(Box::new([before, noted.frames])), ..noted.case }
 }
 
-/// What one eye sees of a job's polygons, those with more than three corners in triangles.
+/// The case of a job's polygons that one eye sees, those with more than three corners in triangles.
 pub fn monocular(job: &Job, eye: Eye, name: &str) -> Case {
     let seen = job.polygons.iter().filter(|p| p.eyes == Eyes::Both || p.eyes == Eyes::One(eye));
     let triangles = seen.flat_map(Polygon::fan);
@@ -308,10 +309,10 @@ pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
     let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
     let size = [rng.u32(24..90), rng.u32(16..70)];
     let (seed, eye) = (rng.u64(..), Eye::BOTH[rng.usize(..2)]);
-    let options = systems::options(rng, config);
+    let options = polygons::options(rng, config);
     let of = |count| {
-        let polygons = for_one_eye(systems::random_polygons(seed, f, size, count), eye);
-        monocular(&systems::job(config, options, size, &polygons), eye, "random polygons")
+        let polygons = for_one_eye(polygons::random_polygons(seed, f, size, count), eye);
+        monocular(&polygons::job(config, options, size, &polygons), eye, "random polygons")
     };
     // Of few, none may have a pixel: then of twice as many.
     let counts = (0..10).map(|n| ((beats / 150).max(2) as u32) << n);
@@ -324,10 +325,10 @@ pub fn mono_random(config: &Config, seed: u64, beats: usize) -> Case {
 pub fn mono_for_pack(config: &Config, seed: u64, beats: usize, eye: Eye) -> Case {
     let (f, rng) = (Formats::new(config), &mut Rng::with_seed(seed));
     let size = [rng.u32(24..90), rng.u32(16..70)];
-    let polygons = systems::random_polygons(rng.u64(..), f, size, (beats / 150).max(2) as u32);
-    let crowd = systems::crowd(rng.u64(..), f, [12, 8], 48);
+    let polygons = polygons::random_polygons(rng.u64(..), f, size, (beats / 150).max(2) as u32);
+    let crowd = polygons::crowd(rng.u64(..), f, [12, 8], 48);
     let mut all = Vec::new();
-    let nothing = systems::job(config, systems::options(rng, config), size, &[]);
+    let nothing = polygons::job(config, polygons::options(rng, config), size, &[]);
     for polygons in [polygons, crowd] {
         let triangles = polygons.iter().flat_map(Polygon::fan).collect();
         let triangles = for_one_eye(triangles, eye);
@@ -342,26 +343,26 @@ pub fn mono_for_pack(config: &Config, seed: u64, beats: usize, eye: Eye) -> Case
 
 /// Large views, each for one eye.
 pub fn mono_large(config: &Config) -> Vec<Case> {
-    let draw = |(large, eye): (systems::Large, Eye)| {
-        let systems::Large { name, size, options, polygons } = large;
+    let draw = |(large, eye): (shapes::Large, Eye)| {
+        let shapes::Large { name, size, options, polygons } = large;
         let polygons = for_one_eye(polygons, eye);
-        monocular(&systems::job(config, options, size, &polygons), eye, &name)
+        monocular(&polygons::job(config, options, size, &polygons), eye, &name)
     };
-    systems::largest(config).into_iter().zip(Eye::BOTH.into_iter().cycle()).map(draw).collect()
+    shapes::largest(config).into_iter().zip(Eye::BOTH.into_iter().cycle()).map(draw).collect()
 }
 
 /// Small polygons on top of each other: the next one reads what is still in the queue.
 pub fn mono_crowd(config: &Config, eye: Eye) -> Case {
     let size = [16, 12];
-    let polygons = systems::crowd(6, Formats::new(config), size, 240);
+    let polygons = polygons::crowd(6, Formats::new(config), size, 240);
     let name = format!("polygons on top of each other, {} eye", eye.name());
     let polygons = for_one_eye(polygons, eye);
-    monocular(&systems::job(config, Options::new(config), size, &polygons), eye, &name)
+    monocular(&polygons::job(config, Options::new(config), size, &polygons), eye, &name)
 }
 
 /// Planes that are barely whole numbers, for an eye.
 pub fn mono_barely_whole(config: &Config, eye: Eye) -> Case {
-    let nothing = systems::job(config, Options::new(config), [16, 12], &[]);
+    let nothing = polygons::job(config, Options::new(config), [16, 12], &[]);
     let name = format!("barely whole planes, {} eye", eye.name());
     drawn(&nothing, &name, eye, &barely_whole(&Formats::new(config)))
 }

@@ -1,10 +1,22 @@
 //! `wheatstone baseline`.
 
-use super::*;
+use super::builder::builder;
+use super::failure::{Failure, OK};
+use super::folders::{root, rtl_folder};
+use super::options::{builtin_names, drawn, parse_size};
+use super::places::Places;
+use super::progress::{is_terminal, Spinner};
+use super::records::{checked, recorded};
 use crate::baseline::{
     self, area_table, row_tables, Areas, Baseline, Recorded, Row, Rows, SIZES, TURNED,
 };
+use crate::settings::Settings;
+use crate::workspace;
+use clap::Args;
+use std::path::{Path, PathBuf};
 use wheatstone_golden::files;
+use wheatstone_golden::formats::Formats;
+use wheatstone_golden::scene::{self, Scene, SceneError};
 
 #[derive(Debug, Args)]
 pub(super) struct BaselineArgs {
@@ -46,7 +58,7 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
     let spinner = Spinner::new();
     let measure = |name: &str, scene: &Scene| -> Result<Row, Failure> {
         let geometry = polygons(scene)?;
-        let row = pipelines.measure(name, &job(&settings, &geometry, settings.options))?;
+        let row = pipelines.measure(name, &settings.job(&geometry))?;
         spinner.tell(name, &format!("ratio {:.3}", row.clocks()));
         Ok(row)
     };
@@ -61,7 +73,7 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
         rows.scenes.push(measure(name, scene)?);
     }
     drop(spinner);
-    let areas = match &workspace() {
+    let areas = match &workspace::find() {
         Some(root) => Areas::recorded(root, &args.config)?,
         None => None,
     };
@@ -80,8 +92,8 @@ pub(super) fn run(args: &BaselineArgs) -> Result<u8, Failure> {
         files::write(file, format!("{content:#}\n").as_bytes())?;
     }
     match (args.record, args.check) {
-        (true, _) => record(&super::root()?, &args.config, rows).map(|()| OK),
-        (_, true) => check(&super::root()?, &args.config, &rows),
+        (true, _) => record(&root()?, &args.config, rows).map(|()| OK),
+        (_, true) => check(&root()?, &args.config, &rows),
         _ => Ok(OK),
     }
 }

@@ -1,9 +1,16 @@
 //! `wheatstone compare`.
 
-use super::*;
+use super::failure::{Failure, OK};
+use super::options::{drawn, Common};
+use super::places::Places;
+use super::progress::Spinner;
+use super::words::called;
+use clap::Args;
+use std::path::PathBuf;
 use wheatstone_golden::files::{self, Set};
+use wheatstone_golden::scene::Geometry;
 use wheatstone_golden::setup::Arrangement;
-use wheatstone_golden::text::Grouped;
+use wheatstone_golden::text::{printable_path, Grouped};
 use wheatstone_studies::compare::{compare, json, table, Method, METHODS};
 use wheatstone_studies::prepared::Prepared;
 
@@ -58,7 +65,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<u8, Failure> {
     }
     if let Some(file) = &args.json {
         let content = serde_json::json!({
-            "command": words::called(),
+            "command": called(),
             "scene": name,
             "width": width,
             "height": height,

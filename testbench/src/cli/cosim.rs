@@ -1,15 +1,28 @@
 //! `wheatstone cosim`.
 
+use super::builder::builder;
+use super::failure::{Failure, BAD_INPUT, MISMATCH, OK};
+use super::folders::output_folder;
 use super::ignored::refuse;
-use super::*;
-use crate::regression::{self, counted, Entry, Event, NamedScene, Plan, Waves};
+use super::options::{builtin_names, parse_target, Common, Stimulus};
+use super::places::Places;
+use super::print;
+use super::progress::{is_terminal, turn};
+use super::words::{choice, option};
+use crate::numbers::counted;
+use crate::regression::{self, Entry, Event, NamedScene, Plan, Waves, BEATS_LIMIT};
+use crate::settings::Settings;
 use crate::shell::command_line;
+use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use wheatstone_golden::files::Tidy;
-use wheatstone_golden::files::{self, Set};
+use wheatstone_golden::files::{self, Set, Tidy};
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::picture::{frame_picture, write_png};
+use wheatstone_golden::scene::Geometry;
+use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::printable_path;
 
 /// Scenes that the systems draw where none is named, and their sizes.
 const SCENES_AT_FULL_SIZE: [&str; 2] = ["teapot", "room"];
@@ -79,10 +92,9 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     let _tidy = Tidy::new(&out);
     let rtl = args.stimulus.rtl()?;
     let scenes = load(args, &scenes, &settings)?;
-    let scenes = scenes.iter().map(|(name, geometry)| NamedScene {
-        name: name.clone(),
-        job: job(&settings, geometry, settings.options),
-    });
+    let scenes = scenes
+        .iter()
+        .map(|(name, geometry)| NamedScene { name: name.clone(), job: settings.job(geometry) });
     let arguments: Vec<String> =
         std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
     let processors = std::thread::available_parallelism().map_or(1, |n| n.get());
@@ -131,7 +143,7 @@ fn uncompared(entry: &Entry) -> Option<String> {
     entry.is_vain().then(what)
 }
 
-/// Why waveforms that were asked for are not there.
+/// The error of waveforms that were asked for and are not there.
 fn unshown(entry: &Entry) -> Option<String> {
     let error = entry.waves_error.as_ref()?;
     Some(format!("waveforms of {} {}: {error}", entry.target.name(), entry.name))
@@ -154,7 +166,7 @@ fn write(args: &CosimArgs, entries: &[Entry], command: &str, out: &Path) -> Resu
     Ok(())
 }
 
-/// What is to be run.
+/// The targets that are run.
 fn targets(args: &CosimArgs) -> Result<Vec<Target>, Failure> {
     let has_scene = args.common.view.scene.is_some();
     if args.targets.is_empty() {

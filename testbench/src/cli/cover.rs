@@ -1,9 +1,23 @@
 //! `wheatstone cover`.
 
-use super::*;
+use super::builder::builder;
+use super::failure::{Failure, MISMATCH, OK};
+use super::folders::{output_folder, rtl_folder};
+use super::options::parse_target;
+use super::places::Places;
+use super::progress::{is_terminal, Spinner};
+use super::records::{checked, update_record, verification_record};
+use super::words::called;
 use crate::cover::{self, Counts, Report, Waiver};
-use crate::regression::{Event, Plan, Waves};
+use crate::regression::{Event, Plan, Waves, BEATS_LIMIT};
+use crate::settings::Settings;
+use crate::verification::{self, Record};
+use crate::workspace;
+use clap::Args;
+use std::path::{Path, PathBuf};
 use wheatstone_golden::files::{self, Set};
+use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::printable_path;
 
 /// Empty bins and missing points that are named on the terminal.
 const SHOWN: usize = 40;
@@ -58,7 +72,7 @@ pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
     }
     let bins = whole.then_some(&bins);
     say!("{}", cover::table(&report, bins));
-    let command = words::called();
+    let command = called();
     if let Some(file) = &args.json {
         files::write(file, cover::json(&report, bins, &command).as_bytes())?;
     }
@@ -77,7 +91,7 @@ pub(super) fn run(args: &CoverArgs) -> Result<u8, Failure> {
 
 /// The list of the workspace; without one nothing is waived.
 fn waivers() -> Result<Vec<Waiver>, Failure> {
-    let Some(file) = workspace().map(|root| root.join(cover::WAIVERS)) else {
+    let Some(file) = workspace::find().map(|root| root.join(cover::WAIVERS)) else {
         return Ok(Vec::new());
     };
     let text = files::read_own(&file)

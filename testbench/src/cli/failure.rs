@@ -1,18 +1,17 @@
-//! Why a command fails, and the exit statuses.
+//! Failures of commands, and the exit statuses.
 
 use crate::baseline::BaselineError;
 use crate::cover::CoverError;
 use crate::generated::GenerateError;
 use crate::mutation::MutationError;
 use crate::pack::PackError;
+use crate::record::RecordError;
 use crate::regression::RegressionError;
 use crate::replay::ReplayError;
 use crate::room::is_full;
 use crate::settings::SettingError;
-use crate::synth::record::RecordError;
 use crate::synth::SynthError;
 use crate::tools::ToolError;
-use crate::verification::VerificationError;
 use crate::BuildError;
 use rustix::io::Errno;
 use std::error::Error;
@@ -33,7 +32,7 @@ pub(super) const MISSING_TOOL: u8 = 3;
 /// The run ended before its work was done: a tool or a model did not end, or ended the program.
 pub(super) use crate::watch::UNFINISHED;
 
-/// What they mean, for the help of the program.
+/// Their meaning, for the help of the program.
 pub(super) const STATUSES: &str = "Exit status:
   0    all compared and equal, or done
   1    a mismatch, or worse than recorded
@@ -45,7 +44,7 @@ pub(super) const STATUSES: &str = "Exit status:
        ended by SIGHUP, SIGINT or SIGTERM; programs that it had started are ended too, and nothing
        half done is left";
 
-/// Why a command could not do its work.
+/// The reason why a command could not do its work.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
     #[error(transparent)]
@@ -70,8 +69,6 @@ pub(super) enum Failure {
     Replay(#[from] ReplayError),
     #[error(transparent)]
     Cover(#[from] CoverError),
-    #[error(transparent)]
-    Verification(#[from] VerificationError),
     #[error(transparent)]
     Mutation(#[from] MutationError),
     #[error(transparent)]
@@ -136,7 +133,7 @@ fn remedy(error: &io::Error) -> Option<&'static str> {
     }
 }
 
-/// Whether another process was waited for, for too long.
+/// True if another process was waited for, for too long.
 fn has_waited(error: &(dyn Error + 'static)) -> bool {
     let is_own = |error: &io::Error| error.kind() == io::ErrorKind::TimedOut;
     error.downcast_ref().is_some_and(is_own) || error.source().is_some_and(has_waited)

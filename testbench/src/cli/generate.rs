@@ -1,8 +1,11 @@
 //! `wheatstone generate`.
 
-use super::*;
+use super::failure::{Failure, MISMATCH, OK};
 use crate::generated::Generated;
+use crate::workspace;
+use clap::Args;
 use wheatstone_golden::files;
+use wheatstone_golden::text::printable_path;
 
 #[derive(Debug, Args)]
 pub(super) struct GenerateArgs {
@@ -12,7 +15,7 @@ pub(super) struct GenerateArgs {
 }
 
 pub(super) fn run(args: &GenerateArgs) -> Result<u8, Failure> {
-    let root = workspace().ok_or_else(|| {
+    let root = workspace::find().ok_or_else(|| {
         Failure::Input("no folder with rtl/sam_formats.vh here or above: not in a workspace".into())
     })?;
     let mut status = OK;

@@ -1,8 +1,10 @@
 //! Options that a command would ignore: they are errors, as whoever gave them expects something.
 
-use super::*;
+use super::failure::Failure;
+use super::options::{Common, CullChoice, View};
 use crate::settings::RUN_PARAMETERS;
 use wheatstone_golden::config::{Config, Parameter, PARAMETERS};
+use wheatstone_golden::targets::Target;
 
 impl Common {
     /// Refuses the options of a scene where none is drawn.
@@ -81,7 +83,7 @@ pub(super) fn refuse_unbuilt(
     refuse_parameters(parameters, unbuilt, &format!("what is built of {}", listed(targets)))
 }
 
-/// Whether a build parameter changes the Verilog parameters or the ports of any of these.
+/// True if a build parameter changes the Verilog parameters or the ports of any of these.
 fn changes(parameter: &Parameter, config: &Config, targets: &[Target]) -> bool {
     let mut configs = parameter.values.iter().filter_map(|value| {
         let mut other = *config;

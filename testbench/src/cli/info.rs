@@ -1,9 +1,13 @@
 //! `wheatstone list` and `wheatstone doctor`.
 
-use super::*;
+use super::failure::{Failure, MISSING_TOOL, OK};
 use crate::settings::RUN_PARAMETERS;
 use crate::tools::Doctor;
+use clap::Args;
 use wheatstone_golden::config::{Config, Parameter, PARAMETERS};
+use wheatstone_golden::projection::Kind;
+use wheatstone_golden::scene::builtin;
+use wheatstone_golden::targets::Target;
 use wheatstone_studies::EXPERIMENTS;
 
 #[derive(Debug, Args)]

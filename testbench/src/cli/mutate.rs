@@ -1,13 +1,25 @@
 //! `wheatstone mutate`.
 
+use super::builder::builder;
+use super::failure::{Failure, MISMATCH, OK};
+use super::folders::{cache_folder, root, rtl_folder};
 use super::ignored::refuse_unbuilt;
-use super::*;
+use super::options::parse_target;
+use super::places::Places;
+use super::progress::{is_terminal, Spinner};
+use super::records::{checked, recorded};
 use crate::mutation::record::{Reviews, Score, Scores, FILE, HEADINGS, REVIEWED_FILE};
 use crate::mutation::{
     golden, is_usual, regression, usual_config, Fate, Mutated, Tested, COUNT, SEED,
 };
+use crate::regression::BEATS_LIMIT;
+use crate::settings::Settings;
 use crate::synth::Synthesiser;
+use crate::{workspace, Builder};
+use clap::Args;
+use std::path::{Path, PathBuf};
 use wheatstone_golden::files;
+use wheatstone_golden::targets::Target;
 
 /// Most mutants of a target: the netlist chooses by 16 bits.
 const MOST: i64 = 60_000;
@@ -77,7 +89,7 @@ impl MutateArgs {
     }
 }
 
-/// What was found of a target.
+/// The result for a target.
 struct Found {
     score: Score,
     tested: Vec<Tested<String>>,
@@ -170,7 +182,7 @@ fn test(
         return Ok(found(args, target, reviews, tested, json));
     };
     let config = Settings::new(args.config(target), &args.parameters)?.config;
-    let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
+    let cache = cache_folder(workspace::find(), Synthesiser::CACHE, |name| std::env::var_os(name));
     let choice = (args.count, args.seed);
     let mutated =
         Mutated::new(builder, [rtl_folder(&args.rtl)?, cache], (target, &config), choice)?;

@@ -1,17 +1,16 @@
 //! Files and folders of a command line, looked at before the work: what cannot be written, or would overwrite
 //! something else of the same run, is told at once.
 
-use super::{builtin_names, Failure, View};
+use super::failure::Failure;
+use super::options::{builtin_names, View};
 use crate::pack;
 use rustix::fs::{access, Access};
-use std::env;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{env, fs, io};
 use wheatstone_golden::files;
 use wheatstone_golden::text::printable_path;
 
-/// What a place is to a command.
+/// The use of a place.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Use {
     Input,
@@ -73,7 +72,7 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Why nothing can be written to a place.
+/// The reason why nothing can be written to a place, if there is one.
 fn unfit(path: &Path, of: Use) -> Option<String> {
     if path.is_relative() && env::current_dir().is_err() {
         let why = "cannot be written: the working folder was deleted; change to one that is there";
@@ -106,14 +105,14 @@ fn unfit(path: &Path, of: Use) -> Option<String> {
     }
 }
 
-/// Why a place is none for files: a pack with others in it would be refused.
+/// The reason why a place in a pack is none for files: a pack with others in it would be refused.
 fn in_a_pack(path: &Path) -> Option<String> {
     let place = resolved(path);
     let pack = printable_path(place.ancestors().find(|folder| pack::is_pack(folder))?);
     Some(format!("{pack} is a vector pack, which has its own files alone; name a place outside it"))
 }
 
-/// Whether both names are of the same place, and what is written there would be replaced.
+/// True if both names are of the same place, and what is written there would be replaced.
 fn is_same(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| match path.is_dir() {
         true => Some(resolved(path)),

@@ -1,9 +1,9 @@
-//! What the program prints: on one line each, without what moves a cursor or hides text, whoever wrote it.
+//! Output of the program: on one line each, without what moves a cursor or hides text, whoever wrote it.
 //!
-//! That a result could not be printed is an error at the end. That nobody reads it any more, as after `head`, is
+//! A result that could not be printed is an error at the end. A reader that has gone away, as after `head`, is
 //! none, and whatever comes on standard error is not worth one.
 
-use super::{BAD_INPUT, OK};
+use super::failure::{BAD_INPUT, OK};
 use std::fmt::Arguments;
 use std::io::{self, Write};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -23,7 +23,7 @@ macro_rules! tell {
     ($($argument:tt)*) => { $crate::cli::print::err(format_args!($($argument)*)) };
 }
 
-/// Whether standard output was closed when the program began: before `main`, the null device takes its place.
+/// True if standard output was closed when the program began: before `main`, the null device takes its place.
 static CLOSED: AtomicBool = AtomicBool::new(false);
 
 /// Before `main` there is little that may be called; asking the system is.
@@ -46,10 +46,10 @@ fn wrong() -> MutexGuard<'static, Option<io::Error>> {
     WRONG.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// How often something was printed.
+/// Number of times that something was printed.
 static PRINTED: AtomicU64 = AtomicU64::new(0);
 
-/// How often something was printed so far, on either stream.
+/// Number of times that something was printed so far, on either stream.
 pub(super) fn printed() -> u64 {
     PRINTED.load(Ordering::Relaxed)
 }

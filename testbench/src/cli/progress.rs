@@ -1,4 +1,4 @@
-//! What turns in the terminal while something is waited for, and lines beside it.
+//! Spinners and bars in the terminal while something is waited for, and lines beside them.
 
 use super::print::{clean, printed};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -9,10 +9,10 @@ use std::time::{Duration, Instant};
 use wheatstone_golden::progress;
 use wheatstone_process::PATIENCE;
 
-/// How often it is looked up whether something was printed.
+/// Time between two looks at the number of printed lines.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// Whether progress can be drawn over.
+/// True if progress can be drawn over.
 pub(super) fn is_terminal() -> bool {
     std::io::stderr().is_terminal()
 }
@@ -60,10 +60,10 @@ pub(super) fn break_silence() {
 
 /// Time in which nothing is printed but by what breaks the silence.
 struct Silence {
-    /// What was printed before.
+    /// Number of lines that were printed before.
     lines: u64,
     since: Duration,
-    /// How long it may be.
+    /// Length at which it is broken.
     next: Duration,
 }
 
@@ -72,7 +72,7 @@ impl Silence {
         Silence { lines, since, next: PATIENCE }
     }
 
-    /// Whether it is so long that something should be told.
+    /// True if it is so long that something should be told.
     fn is_long(&mut self, now: Duration, lines: u64) -> bool {
         if lines != self.lines {
             *self = Silence::new(now, lines);

@@ -1,13 +1,21 @@
 //! `wheatstone prove`.
 
-use super::*;
+use super::failure::{Failure, MISMATCH, OK};
+use super::folders::{cache_folder, root, rtl_folder};
+use super::places::Places;
+use super::progress::Spinner;
+use super::records::{checked, recorded};
+use super::words::called;
 use crate::prove::record::{self, shown, Compared, Extent, Proved, Record};
 use crate::prove::{name, properties, Bug, Catch, Effort, Prover, Verdict, BUGS, LIMIT};
+use crate::workspace;
+use clap::Args;
 use rayon::prelude::*;
+use std::path::PathBuf;
 use std::time::Instant;
 use wheatstone_golden::config::Config;
-use wheatstone_golden::files;
-use wheatstone_golden::files::Scratch;
+use wheatstone_golden::files::{self, Scratch};
+use wheatstone_golden::targets::Target;
 
 #[derive(Debug, Args)]
 pub(super) struct ProveArgs {
@@ -46,7 +54,7 @@ pub(super) struct ProveArgs {
 pub(super) fn run(args: &ProveArgs) -> Result<u8, Failure> {
     Places::default().file("--json", &args.json).check()?;
     let rtl = rtl_folder(&args.rtl)?;
-    let cache = cache_folder(workspace(), Prover::CACHE, |name| std::env::var_os(name));
+    let cache = cache_folder(workspace::find(), Prover::CACHE, |name| std::env::var_os(name));
     let fresh = args.fresh.then(|| Scratch::below(&cache)).transpose()?;
     let cache = fresh.as_ref().map_or(cache, |folder| folder.path().to_owned());
     let prover = Prover::new(rtl, cache);
@@ -118,15 +126,10 @@ fn proofs(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8, F
     Ok(if proved.iter().any(fails) { MISMATCH } else { lost })
 }
 
-/// Reads the record of a workspace.
-fn read(root: &Path) -> Result<Record, Failure> {
-    Record::read(root).map_err(|error| Failure::Input(error.to_string()))
-}
-
 /// Tells what is proved for less than the record says, or too slowly, and gives the exit status.
 fn lost(args: &ProveArgs, proved: &[Proved]) -> Result<u8, Failure> {
     let extent = if args.quick { Extent::Short } else { Extent::All };
-    let mut faults = read(&root()?)?.faults(proved, extent);
+    let mut faults = Record::read(&root()?)?.faults(proved, extent);
     faults.extend(record::slow(proved, extent));
     Ok(checked(&faults, record::FILE))
 }
@@ -245,7 +248,7 @@ fn netlists(args: &ProveArgs, prover: &Prover, modules: &[String]) -> Result<u8,
     let differ = compared.iter().filter(|entry| entry.equivalence.differs());
     let mut faults: Vec<String> = differ.map(Compared::difference).collect();
     if args.check {
-        faults.extend(read(&root()?)?.lost_netlists(&compared));
+        faults.extend(Record::read(&root()?)?.lost_netlists(&compared));
         return Ok(checked(&faults, record::FILE));
     }
     faults.iter().for_each(|fault| say!("{fault}"));
@@ -259,7 +262,7 @@ fn write_json(
 ) -> Result<(), Failure> {
     let Some(file) = &args.json else { return Ok(()) };
     let content = serde_json::json!({
-        "command": words::called(),
+        "command": called(),
         name: entries,
     });
     Ok(files::write(file, format!("{content:#}\n").as_bytes())?)
@@ -268,7 +271,7 @@ fn write_json(
 /// Writes into the record of the workspace.
 fn update(proofs: &[Proved], netlists: &[Compared]) -> Result<(), Failure> {
     let root = root()?;
-    let mut record = recorded(&root, record::FILE, read)?;
+    let mut record = recorded(&root, record::FILE, Record::read)?;
     record.update(proofs, netlists);
     record.write(&root)?;
     say!("{}: written; now run: wheatstone generate", record::FILE);

@@ -1,7 +1,11 @@
 //! `wheatstone render`.
 
-use super::*;
+use super::failure::{Failure, OK};
+use super::options::Common;
+use super::places::Places;
 use crate::regression::drawn_line;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
 use wheatstone_golden::files::Set;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::frame::NO_ID;
@@ -10,6 +14,8 @@ use wheatstone_golden::picture::{
 };
 use wheatstone_golden::quality::Quality;
 use wheatstone_golden::scene::height_field::EYE_SEPARATION;
+use wheatstone_golden::scene::Geometry;
+use wheatstone_golden::text::printable_path;
 
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
@@ -87,7 +93,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
         files[files.len() - 1].clone()
     };
     left_out(&geometry);
-    let job = job(&settings, &geometry, settings.options);
+    let job = settings.job(&geometry);
     let start = std::time::Instant::now();
     let direct = job.direct();
     let direct_time = start.elapsed();
@@ -135,7 +141,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<u8, Failure> {
     Ok(OK)
 }
 
-/// Whether a file is a composite: one of an older run shows other views.
+/// True if a file is a composite: one of an older run shows other views.
 fn is_composite(name: &str) -> bool {
     Composite::ALL.iter().any(|composite| name.strip_suffix(".png") == Some(composite.name()))
 }

@@ -1,17 +1,26 @@
 //! `wheatstone replay`.
 
-use super::*;
-use crate::cases;
-use crate::pack::BEATS_LIMIT;
-use crate::pack::{self, Checked, Origin};
-use crate::regression::counted;
+use super::failure::{Failure, MISMATCH, OK};
+use super::folders::{cache_folder, rtl_folder};
+use super::options::parse_target;
+use super::places::Places;
+use super::progress::Spinner;
+use super::records::{checked, update_record, verification_record};
+use super::words::called;
+use crate::numbers::counted;
+use crate::pack::{self, Checked, Origin, BEATS_LIMIT};
 use crate::replay::{ReplayError, Replayed, Replayer, Way};
+use crate::settings::Settings;
 use crate::synth::Synthesiser;
-use crate::verification::Replay;
+use crate::verification::{self, Replay};
+use crate::{cases, workspace};
+use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use wheatstone_golden::files;
-use wheatstone_golden::files::Scratch;
+use std::path::{Path, PathBuf};
+use wheatstone_golden::files::{self, Scratch};
+use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::printable_path;
 
 /// Random beats of a pack, beside what is rare: what the netlist of a system takes in some minutes.
 const BEATS: u64 = 1_000;
@@ -111,7 +120,7 @@ pub(super) fn run(args: &ReplayArgs) -> Result<u8, Failure> {
     Places::default().file("--json", &args.json).check()?;
     let rtl = rtl_folder(&args.rtl)?;
     let recorded = args.check.then(verification_record).transpose()?;
-    let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
+    let cache = cache_folder(workspace::find(), Synthesiser::CACHE, |name| std::env::var_os(name));
     let made = Scratch::below(&std::env::temp_dir())?;
     let packs = match &args.packs {
         Some(folder) => found(folder, &args.targets)?,
@@ -202,7 +211,7 @@ fn make(args: &ReplayArgs, rtl: &Path, out: &Path) -> Result<Vec<Named>, Failure
     Ok(packs)
 }
 
-/// What a replay shows: of a pack without output beats that its flags are equal.
+/// The result of a replay in a table: of a pack without output beats that its flags are equal.
 fn verdict(named: &Named, replayed: &Replayed) -> &'static str {
     match (replayed.passed, named.pack.manifest.compared()) {
         (false, _) => "MISMATCH",
@@ -253,7 +262,7 @@ fn json(results: &[(&Named, Way, Replayed)]) -> String {
         })
     };
     let content = serde_json::json!({
-        "command": words::called(),
+        "command": called(),
         "replays": results.iter().map(entry).collect::<Vec<_>>(),
     });
     format!("{content:#}\n")

@@ -1,7 +1,13 @@
 //! `wheatstone reproduce`.
 
-use super::*;
+use super::failure::{Failure, MISMATCH, OK};
+use super::places::Places;
+use super::progress::Spinner;
+use super::words::called;
+use clap::Args;
+use std::path::PathBuf;
 use wheatstone_golden::files;
+use wheatstone_golden::text::printable_path;
 use wheatstone_studies::reproduce::{json, run as run_experiments, Event, Summary};
 use wheatstone_studies::{Experiment, EXPERIMENTS};
 
@@ -49,7 +55,7 @@ pub(super) fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
     });
     drop(spinner);
     let reports = reports?;
-    let command = words::called();
+    let command = called();
     let content = json(&reports, &command);
     for file in [Some(&args.out.join("reproduce.json")), args.json.as_ref()].into_iter().flatten() {
         files::write(file, content.as_bytes())?;

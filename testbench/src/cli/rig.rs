@@ -1,8 +1,15 @@
 //! `wheatstone rig`.
 
-use super::*;
+use super::failure::{Failure, OK};
+use super::options::View;
+use super::places::Places;
+use super::words::called;
+use clap::Args;
+use std::path::PathBuf;
 use wheatstone_golden::files::{self, Set};
 use wheatstone_golden::scene::RigFile;
+use wheatstone_golden::text::printable_path;
+use wheatstone_studies::volume::Volume;
 
 const HELP: &str =
     "Distances are from the plane of the eyes: in the scene's unit, and as perceived in the
@@ -57,7 +64,7 @@ pub(super) fn run(args: &RigArgs) -> Result<u8, Failure> {
     if let Some(file) = json {
         let mut content = volume.json(at);
         content["scene"] = name.into();
-        content["command"] = words::called().into();
+        content["command"] = called().into();
         files::write(file, format!("{content:#}\n").as_bytes())?;
     }
     Ok(OK)

@@ -1,8 +1,7 @@
 //! Runs the work of the program in a child process, so that a model which ends or crashes the process that it runs
 //! in cannot look like one that passed: without a word of the child that it is done, the run has failed.
 
-use super::UNFINISHED;
-use crate::watch::{self, RECORD_SIZE};
+use crate::watch::{self, RECORD_SIZE, UNFINISHED};
 use rustix::fs::{memfd_create, MemfdFlags};
 use rustix::process::{getppid, kill_process, Pid, Signal};
 use std::fs::File;
@@ -42,7 +41,7 @@ pub(super) fn is_child() -> bool {
     true
 }
 
-/// What a supervisor waits for.
+/// An event that a supervisor waits for.
 enum Event {
     Ended(io::Result<ExitStatus>),
     Signal(i32),
@@ -103,7 +102,7 @@ fn run() -> io::Result<u8> {
     Ok(UNFINISHED)
 }
 
-/// What there is to say of a child that ended before it had done its work.
+/// The error of a child that ended before it had done its work.
 fn vanished(ended: ExitStatus, running: &[String]) -> String {
     let (when, hint) = match running {
         [] => ("when nothing was simulated".to_owned(), ""),

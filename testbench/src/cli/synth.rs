@@ -1,12 +1,24 @@
 //! `wheatstone synth`.
 
+use super::failure::{Failure, OK};
+use super::folders::{cache_folder, root, rtl_folder};
 use super::ignored::refuse_unbuilt;
-use super::*;
+use super::options::parse_target;
+use super::places::Places;
+use super::progress::Spinner;
+use super::records::{checked, recorded};
+use super::words::called;
+use crate::settings::Settings;
 use crate::synth::record::{self, published, Entry, Record};
 use crate::synth::{Figure, Synthesiser, Tech};
+use crate::workspace;
+use clap::{Args, ValueEnum};
 use rayon::prelude::*;
+use std::path::PathBuf;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::files;
+use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::Grouped;
 
 #[derive(Debug, Args)]
 pub(super) struct SynthArgs {
@@ -51,7 +63,7 @@ pub(super) fn run(args: &SynthArgs) -> Result<u8, Failure> {
     Places::default().file("--json", &args.json).check()?;
     let tasks = tasks(args)?;
     let rtl = rtl_folder(&args.rtl)?;
-    let cache = cache_folder(workspace(), Synthesiser::CACHE, |name| std::env::var_os(name));
+    let cache = cache_folder(workspace::find(), Synthesiser::CACHE, |name| std::env::var_os(name));
     let synthesiser = Synthesiser { rtl, cache };
     let spinner = Spinner::new();
     let entries: Result<Vec<Entry>, Failure> = tasks
@@ -71,7 +83,7 @@ pub(super) fn run(args: &SynthArgs) -> Result<u8, Failure> {
     }
     if let Some(file) = &args.json {
         let content = serde_json::json!({
-            "command": words::called(),
+            "command": called(),
             "measured": entries,
         });
         files::write(file, format!("{content:#}\n").as_bytes())?;
@@ -139,7 +151,7 @@ fn print_table(entries: &[Entry], tech: Tech) {
         cells.extend(tech.figures().iter().map(|figure: &Figure| entry.shown(*figure)));
         let gates = Target::named(&entry.target).and_then(published);
         if let (Tech::Gates, Some(gates)) = (tech, gates) {
-            cells.push(record::thousands(gates.into()));
+            cells.push(Grouped(gates.into()).to_string());
         }
         table.add_row(cells);
     }

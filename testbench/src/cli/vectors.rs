@@ -1,11 +1,18 @@
 //! `wheatstone vectors` and `wheatstone check`.
 
+use super::failure::{Failure, MISMATCH, OK};
 use super::ignored::refuse;
-use super::*;
+use super::options::{builtin_names, drawn, parse_target, Common, CullChoice, Stimulus};
+use super::places::Places;
 use crate::cases::{self, Case};
+use crate::numbers::counted;
 use crate::pack::{self, Drawn, Manifest, Origin, SceneOrigin};
-use crate::regression::{counted, scene_head};
+use crate::settings::Settings;
 use crate::shell::{command_line, operand};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use wheatstone_golden::scene;
+use wheatstone_golden::targets::Target;
 use wheatstone_golden::text::{printable, printable_path};
 
 /// Random beats of a pack.
@@ -77,7 +84,7 @@ pub(super) fn write(args: &VectorsArgs) -> Result<u8, Failure> {
     Ok(OK)
 }
 
-/// How many beats a pack has, and which outputs have none.
+/// The number of a pack's beats, and the outputs that have none.
 fn beats_of(manifest: &Manifest) -> String {
     let beats = counted(manifest.beats(), "beat");
     manifest.uncompared().map_or(beats.clone(), |none| format!("{beats}, {none}"))
@@ -164,9 +171,9 @@ fn scene(
     let file = is_file.then(|| scene::read(Path::new(name))).transpose()?;
     let rig_file = common.view.rig.as_deref().map(scene::read_text).transpose()?;
     let geometry = drawn(name, common.geometry_of(&opened, settings)?)?;
-    let whole = job(settings, &geometry, settings.options);
+    let whole = settings.job(&geometry);
     let job = target.job(&whole);
-    let head = scene_head(target, &job, name, beats)
+    let head = cases::scene_head(target, &job, name, beats)
         .ok_or_else(|| Failure::Input(format!("--scene {name}: nothing of it is drawn")))?;
     let drawn = Drawn {
         name,

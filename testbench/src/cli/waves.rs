@@ -1,19 +1,27 @@
 //! `wheatstone waves`.
 
+use super::builder::builder;
+use super::failure::{Failure, OK};
+use super::folders::output_folder;
 use super::ignored::refuse;
-use super::*;
+use super::options::{parse_target, Common, Stimulus};
+use super::places::Places;
 use crate::regression::{record_waves, Focus};
 use crate::shell::{command_line, operand};
 use crate::tools::GTKWAVE;
+use clap::Args;
 use std::ffi::OsStr;
 use std::io::{Read, Seek};
+use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::Duration;
-use wheatstone_golden::files::Tidy;
+use wheatstone_golden::files::{Tidy, WriteError};
 use wheatstone_golden::formats::Eye;
+use wheatstone_golden::targets::Target;
+use wheatstone_golden::text::printable_path;
 use wheatstone_process::Process;
 
-/// How long GTKWave must live to count as open.
+/// Time that GTKWave must live to count as open.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Bytes of what it says that are read.
 const SAID: u64 = 1 << 16;
@@ -75,7 +83,7 @@ pub(super) fn run(args: &WavesArgs) -> Result<u8, Failure> {
         args.common.refuse_scene_options()?;
         None
     };
-    let job = geometry.as_ref().map(|geometry| job(&settings, geometry, settings.options));
+    let job = geometry.as_ref().map(|geometry| settings.job(geometry));
     let out = args.out.clone().unwrap_or_else(|| output_folder("waves"));
     let _tidy = Tidy::new(&out);
     std::fs::create_dir_all(&out).map_err(|source| WriteError { file: out.clone(), source })?;

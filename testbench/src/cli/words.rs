@@ -1,29 +1,43 @@
-//! The words of the command line: read, and repeated in reports.
+//! The words of the command line, repeated in reports.
 
-use super::{print, Cli, BAD_INPUT};
-use clap::Parser;
-use std::ffi::OsString;
-use wheatstone_golden::text::printable;
+use clap::ValueEnum;
 
-/// Reads the command line; where there is nothing to run, says so and gives the exit status.
-pub(super) fn parse() -> Result<Cli, u8> {
-    let words: Vec<OsString> = std::env::args_os().collect();
-    let error = match Cli::try_parse_from(&words) {
-        Ok(cli) => return Ok(cli),
-        Err(error) => error,
-    };
-    // The message repeats what it is about: it is made of words that can be shown.
-    let shown = words.iter().map(|word| printable(&word.to_string_lossy()));
-    match Cli::try_parse_from(shown) {
-        Err(shown) if shown.use_stderr() => drop(shown.print()),
-        Err(help) => print::check(help.print()),
-        Ok(_) => tell!("{error}"),
+/// An option with its value, in one word where the value looks like another option.
+pub(super) fn option(name: &str, value: impl std::fmt::Display) -> Vec<String> {
+    let value = value.to_string();
+    match value.starts_with('-') {
+        true => vec![format!("{name}={value}")],
+        false => vec![name.to_owned(), value],
     }
-    Err(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT))
+}
+
+/// An option with names as values, unless it has its default.
+pub(super) fn choice<T: ValueEnum + PartialEq>(name: &str, value: T, default: T) -> Vec<String> {
+    let named = value.to_possible_value().filter(|_| value != default);
+    named.map_or(Vec::new(), |value| option(name, value.get_name()))
 }
 
 /// The command line, for reports.
 pub(super) fn called() -> String {
     let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
     words.collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Clone, Copy, PartialEq, ValueEnum)]
+    enum Side {
+        Front,
+        Back,
+    }
+
+    #[test]
+    fn options_are_told_as_they_are_read() {
+        assert_eq!(option("--scene", "a b.obj"), ["--scene", "a b.obj"]);
+        assert_eq!(option("--out", "-x"), ["--out=-x"]);
+        assert_eq!(choice("--cull", Side::Back, Side::Front), ["--cull", "back"]);
+        assert!(choice("--cull", Side::Front, Side::Front).is_empty());
+    }
 }

@@ -6,12 +6,11 @@
 //! fault.
 
 mod functional;
-mod points;
 mod report;
 mod waivers;
 
+pub use crate::coverage::{Collector, Counts, Kind, Point};
 pub use functional::{Bin, Bins, Ratio};
-pub use points::{Collector, Counts, Kind, Point};
 pub use report::{annotated, crossing, divisions, json, table, FileCoverage, Report, Share};
 pub use waivers::{Waiver, WaiverError, FILE as WAIVERS};
 

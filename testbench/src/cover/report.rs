@@ -1,4 +1,4 @@
-//! What is covered, file by file.
+//! Coverage, file by file.
 
 use super::functional::{division_name, Ratio, TERMS};
 use super::{Bins, Counts, Kind, Point, Waiver};
@@ -12,9 +12,9 @@ use wheatstone_golden::pipeline::Mode;
 pub struct Share {
     /// Points.
     pub points: usize,
-    /// Those that were covered.
+    /// Points that were covered.
     pub covered: usize,
-    /// Those that were not and are waived.
+    /// Points that were not covered and are waived.
     pub waived: usize,
 }
 
@@ -24,7 +24,7 @@ impl Share {
         self.points - self.covered - self.waived
     }
 
-    /// Whether less is covered, or more missing or waived, than there was.
+    /// True if less is covered, or more missing or waived, than there was.
     pub fn is_worse(&self, old: &Share) -> bool {
         self.covered < old.covered || self.waived > old.waived || self.missing() > old.missing()
     }

@@ -1,6 +1,6 @@
 //! Points that cannot be covered, each with the reason.
 
-use super::points::Kind;
+use crate::coverage::Kind;
 use thiserror::Error;
 
 /// The list in the workspace.
@@ -11,11 +11,11 @@ pub const FILE: &str = "testbench/coverage_waivers.txt";
 pub struct Waiver {
     /// File of `rtl`.
     pub file: String,
-    /// What kind of points.
+    /// Kind of the points.
     pub kind: Kind,
     /// Their names, with `*` for anything.
     pub name: String,
-    /// Why they cannot be covered.
+    /// The reason why they cannot be covered.
     pub reason: String,
 }
 
@@ -47,13 +47,13 @@ impl Waiver {
         })
     }
 
-    /// Whether it speaks of a point.
+    /// True if it speaks of a point.
     pub fn covers(&self, file: &str, kind: Kind, name: &str) -> bool {
         self.file == file && self.kind == kind && matches(&self.name, name)
     }
 }
 
-/// Whether a name fits a pattern in which `*` is anything.
+/// True if a name fits a pattern in which `*` is anything.
 fn matches(pattern: &str, name: &str) -> bool {
     let Some((head, rest)) = pattern.split_once('*') else { return pattern == name };
     let Some(tail) = name.strip_prefix(head) else { return false };

@@ -1,17 +1,11 @@
-//! What a run tells when it ends: the counts, or where and how it failed.
+//! The end of a run: the counts, or where and how it failed.
 
-use super::{bits, Run, State};
-use crate::layout::StreamSignals;
+use super::run::{bits, payload, Run, State};
 use crate::model::{Model, Seen};
 use crate::outcome::{
     Counts, Difference, Fault, Hung, Mismatch, Outcome, Place, StreamCount, StreamState,
 };
 use wheatstone_golden::interface::{Field, Interface};
-
-/// The fields of the beat on a stream's signals.
-pub(super) fn payload(model: &Model, stream: &StreamSignals) -> Vec<u64> {
-    (0..stream.width).map(|field| model.peek(stream.field(field))).collect()
-}
 
 fn stopped(fault: Fault, stream: &'static str, cycle: u64) -> Mismatch {
     Mismatch {
@@ -133,7 +127,7 @@ impl Run<'_> {
         Outcome::Hung(Box::new(Hung { cycle, waited, streams: streams.collect() }))
     }
 
-    /// What is looked at when everything has drained: probes without their last beats, flags.
+    /// Checks the end, when everything has drained: probes without their last beats, flags.
     pub fn check_end(&self, model: &Model, cycle: u64, flags: &[u64]) -> Result<(), Outcome> {
         for probed in bits(self.watched) {
             let number = self.streams(model) + probed;

@@ -17,7 +17,7 @@ use wheatstone_golden::interface::{Direction, Field, Interface, Stream};
 /// Processor time that a proof may take, merging included.
 const LIMIT: Duration = Duration::from_secs(120);
 
-/// What is known of a mutant.
+/// Result of the comparison of a mutant with its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// No beats show a difference.

@@ -11,18 +11,18 @@ use wheatstone_golden::files;
 use wheatstone_golden::targets::Target;
 use wheatstone_process::Process;
 
-/// Where cargo mutants works and reports, seen from the workspace's folder.
+/// Folder in which cargo mutants works and reports, seen from the workspace's folder.
 const FOLDER: &str = "target/wheatstone/mutants";
 /// Name of the golden model in the place of a configuration.
 pub const CONFIG: &str = "golden";
-/// What runs a test: one that needs more than two minutes of processor time, a hundred times what the slowest
+/// Command that runs a test: one that needs more than two minutes of processor time, a hundred times what the slowest
 /// needs, never ends, and fails.
 const RUNNER: &str =
     r#"target."cfg(unix)".runner=["sh", "-c", "ulimit -t 120; exec \"$@\"", "sh"]"#;
 /// Seconds on the clock after which cargo mutants gives up; nothing is known of such a mutant.
 const PATIENCE: &str = "3600";
 
-/// Whether a target is a unit with a test of the golden crate.
+/// True if a target is a unit with a test of the golden crate.
 pub fn is_unit(target: Target) -> bool {
     !target.is_system() && !matches!(target, Target::Primary | Target::Mono)
 }
@@ -107,7 +107,7 @@ fn sources(root: &Path, name: &str) -> Result<Vec<PathBuf>, String> {
     Ok([own, tables].into_iter().filter(|file| root.join(file).is_file()).collect())
 }
 
-/// What became of a mutant; one that does not compile is none.
+/// The fate of a mutant; one that does not compile is none.
 fn tested(
     outcome: Outcome,
     name: &str,

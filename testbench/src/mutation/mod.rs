@@ -35,7 +35,7 @@ pub const SEED: u64 = 1;
 /// Seed of the regression: the one that it has where no other is given.
 const REGRESSION_SEED: u64 = 1;
 
-/// Whether the Verilog of a target is tested where no target is named: large systems are not.
+/// True if the Verilog of a target is tested where no target is named: large systems are not.
 pub fn is_usual(target: Target) -> bool {
     !matches!(target, Target::Mono | Target::Hybrid | Target::Stereo)
 }
@@ -66,7 +66,7 @@ pub enum MutationError {
     Golden {
         /// The unit.
         unit: &'static str,
-        /// Why.
+        /// The cause.
         why: String,
     },
     /// The netlist without a mutant does not pass the regression.
@@ -76,14 +76,14 @@ pub enum MutationError {
         target: &'static str,
         /// The case.
         case: String,
-        /// What is wrong.
+        /// The difference.
         what: String,
     },
 }
 
 /// One run of a regression.
 pub struct Run {
-    /// What is fed and expected.
+    /// Stimulus and expected beats.
     pub case: Case,
     /// Seed of the initial state.
     pub seed: u64,
@@ -111,7 +111,7 @@ pub fn regression(
     }))
 }
 
-/// What became of a mutant.
+/// The fate of a mutant.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fate {
@@ -132,7 +132,7 @@ pub enum Fate {
 pub struct Tested<M = Mutant> {
     /// The mutant.
     pub mutant: M,
-    /// What became of it.
+    /// Its fate.
     pub fate: Fate,
 }
 
@@ -222,7 +222,7 @@ impl Mutated {
     }
 }
 
-/// What is wrong in a run of the mutant of that number.
+/// The fault in a run of the mutant of that number.
 fn fault(
     setting: &Setting,
     case: &mut Case,

@@ -69,7 +69,7 @@ pub(super) struct Netlist {
     pub mutated: Interface,
     /// The mutants; the first one has number 1.
     pub mutants: Vec<Mutant>,
-    /// Where the tools work.
+    /// The folder in which the tools work.
     pub work: Folder,
     /// Yosys.
     pub yosys: Found,

@@ -2,16 +2,16 @@
 //! those that were reviewed.
 
 use super::{Fate, Tested};
-use crate::synth::record::{read_record, RecordError};
+use crate::record::{read_record, RecordError};
 use serde::{Deserialize, Serialize};
 use std::fmt::{Display, Write};
 use std::path::Path;
 use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::targets::Target;
 
-/// Where the scores are in the workspace.
+/// Path of the scores in the workspace.
 pub const FILE: &str = "synth/mutation.json";
-/// Where the reviewed mutants are in the workspace.
+/// Path of the list of reviewed mutants in the workspace.
 pub const REVIEWED_FILE: &str = "synth/mutants_reviewed.json";
 
 /// The least share of mutants that must be killed.
@@ -70,12 +70,12 @@ impl Score {
         self.killed as f64 / (self.killed + self.survivors.len()).max(1) as f64
     }
 
-    /// Whether it is high enough.
+    /// True if it is high enough.
     pub fn passes(&self) -> bool {
         self.share() >= LEAST_SCORE
     }
 
-    /// What is wrong where it is not. Of systems that are tested only when they are named much cannot be
+    /// The fault of a score that is not high enough. Of systems that are tested only when they are named much cannot be
     /// decided: their score may be low.
     pub fn low(&self) -> Option<String> {
         let least = 100.0 * LEAST_SCORE;
@@ -84,7 +84,7 @@ impl Score {
             .then(|| format!("{} {}: below {least:.0} %", self.target, self.config))
     }
 
-    /// Whether both are of the same target in the same configuration.
+    /// True if both are of the same target in the same configuration.
     fn is_same(&self, other: &Score) -> bool {
         (&self.target, &self.config) == (&other.target, &other.config)
     }
@@ -132,7 +132,7 @@ impl Scores {
         self.0.sort_by_key(|score| (place(score), score.config.clone()));
     }
 
-    /// What is lower than the score here, or than [`LEAST_SCORE`], a line each; also what is not here.
+    /// Scores that are lower than here, or than [`LEAST_SCORE`], a line each; also those that are not here.
     pub fn faults(&self, scores: &[Score]) -> Vec<String> {
         scores.iter().flat_map(|new| self.worse(new).into_iter().chain(new.low())).collect()
     }
@@ -184,7 +184,7 @@ pub struct Review {
     pub config: String,
     /// The mutant, as it is told.
     pub mutant: String,
-    /// Why nothing shows it.
+    /// The reason why nothing shows it.
     pub reason: String,
 }
 
@@ -193,7 +193,7 @@ pub struct Review {
 pub struct Reviews(pub Vec<Review>);
 
 impl Reviews {
-    /// Those of a workspace.
+    /// The reviewed mutants of a workspace.
     pub fn read(workspace: &Path) -> Result<Reviews, RecordError> {
         let remedy =
             "it is written by hand, a list of objects with target, config, mutant and reason";
@@ -204,7 +204,7 @@ impl Reviews {
         self.0.iter().filter(move |r| r.target == target.name() && r.config == config)
     }
 
-    /// Why nothing shows a mutant, if it is here.
+    /// The reason why nothing shows a mutant, if it is here.
     pub fn reason(&self, target: Target, config: &str, mutant: &impl Display) -> Option<String> {
         let told = mutant.to_string();
         self.of(target, config).find(|r| r.mutant == told).map(|r| r.reason.clone())

@@ -25,7 +25,7 @@ const RANGES_LIMIT: u64 = 1_000;
 pub struct Checked {
     /// Its folder.
     pub folder: PathBuf,
-    /// What it says of itself.
+    /// Its manifest.
     pub manifest: Manifest,
     /// The interface of its target.
     pub interface: Interface,
@@ -259,7 +259,7 @@ impl Checker<'_> {
         Ok(())
     }
 
-    /// What is said of a scene, as far as it can be known without it.
+    /// Checks what the manifest says of a scene, as far as that can be known without it.
     fn scene(
         &self,
         scene: &SceneOrigin,
@@ -428,7 +428,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a text names a program as this one does, with any version.
+/// True if a text names a program as this one does, with any version.
 fn is_generator(text: &str) -> bool {
     let version = text.strip_prefix("wheatstone ").filter(|version| version.len() <= 40);
     let is_part = |b: u8| b.is_ascii_alphanumeric() || b"+-.".contains(&b);

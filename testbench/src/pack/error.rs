@@ -1,4 +1,4 @@
-//! What can be wrong with a pack.
+//! Errors of vector packs.
 
 use crate::shell::{command_line, operand};
 use std::ffi::OsStr;
@@ -15,7 +15,7 @@ pub enum PackError {
     File {
         /// Which one.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// The manifest is no manifest.
@@ -27,7 +27,7 @@ pub enum PackError {
         line: usize,
         /// Column of the fault.
         column: usize,
-        /// What is wrong.
+        /// The fault.
         message: String,
     },
     /// A field of the manifest does not fit the rest.
@@ -37,9 +37,9 @@ pub enum PackError {
         path: PathBuf,
         /// Which field.
         field: String,
-        /// What it says.
+        /// Its value.
         found: String,
-        /// What it must say.
+        /// The value that it must have.
         expected: String,
     },
     /// There is no folder of that name.
@@ -47,7 +47,7 @@ pub enum PackError {
     NoFolder {
         /// The name.
         path: PathBuf,
-        /// What is there.
+        /// Kind of the thing that is there.
         found: String,
     },
     /// The folder has no pack, nor packs in its folders.
@@ -67,7 +67,7 @@ pub enum PackError {
     Extra {
         /// The folder.
         path: PathBuf,
-        /// What it has.
+        /// Name of the file.
         file: String,
     },
     /// The vectors are more than a pack may have.

@@ -8,7 +8,7 @@ pub const SCHEMA: u32 = 2;
 /// Name of the manifest.
 pub const MANIFEST: &str = "manifest.json";
 
-/// What a pack says of itself.
+/// The manifest of a pack.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
@@ -55,7 +55,7 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// What the field `hash` must say.
+    /// The value that the field `hash` must have.
     pub fn digest(&self) -> String {
         let emptied = Manifest { hash: String::new(), ..self.clone() };
         // Text and numbers cannot fail to be written.
@@ -78,7 +78,7 @@ impl Manifest {
         self.outputs().map(|port| port.beats).sum()
     }
 
-    /// Whether there is nothing that could differ but a beat too many.
+    /// True if there is nothing that could differ but a beat too many.
     pub fn is_vain(&self) -> bool {
         self.compared() == 0 && self.flags.is_empty()
     }
@@ -202,7 +202,7 @@ pub struct Port {
     pub bin: HashedFile,
     /// CRC-32/ISO-HDLC of the binary file, eight hexadecimal digits.
     pub crc32: String,
-    /// Where the fields are.
+    /// Places of the fields.
     pub fields: Vec<PackedField>,
 }
 

@@ -30,13 +30,13 @@ use beats::{crc32, direction_name, mem_text, packed_fields, padded_with_ones};
 use std::path::Path;
 use wheatstone_golden::files;
 
-/// Whether a folder is that of a pack, sound or not.
+/// True if a folder is that of a pack, sound or not.
 pub fn is_pack(folder: &Path) -> bool {
     let manifest = files::read(&folder.join(MANIFEST), MANIFEST_LIMIT);
     manifest.is_ok_and(|bytes| String::from_utf8_lossy(&bytes).contains(FORMAT))
 }
 
-/// What a manifest says that it is of.
+/// Format that every manifest names.
 const FORMAT: &str = "wheatstone-vectors";
 /// Most bytes of a manifest.
 const MANIFEST_LIMIT: u64 = 1 << 20;

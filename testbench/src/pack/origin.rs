@@ -1,8 +1,8 @@
-//! Where the vectors of a pack come from.
+//! The origin of the vectors of a pack.
 
 use super::text::plain;
 use super::{SceneOrigin, Setting};
-use crate::regression::Head;
+use crate::cases::Head;
 use crate::settings::Settings;
 use wheatstone_golden::scene::Rig;
 use wheatstone_golden::stereo::Job;
@@ -20,7 +20,7 @@ pub(super) const RIG: [&str; 8] = [
     "screen_distance",
 ];
 
-/// What a case does not say of itself.
+/// The origin of a case, which it does not say of itself.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
     /// Seed of random vectors; none of directed ones and of scenes.
@@ -29,7 +29,7 @@ pub struct Origin {
     pub config: String,
     /// The scene.
     pub scene: Option<SceneOrigin>,
-    /// What the name of the folder has behind the target's.
+    /// Text that the name of the folder has behind the target's.
     pub suffix: &'static str,
 }
 
@@ -66,7 +66,7 @@ impl SceneOrigin {
     pub fn new(drawn: &Drawn, head: &Head) -> SceneOrigin {
         let Drawn { rig, job, settings, .. } = drawn;
         let setting = |(name, value): (&str, String)| Setting { name: name.into(), value };
-        let viewer = rig.projection.viewer(rig);
+        let viewer = rig.viewer();
         let numbers = [
             rig.pixels_per_unit,
             rig.eye_separation,
@@ -78,7 +78,7 @@ impl SceneOrigin {
             viewer.screen_distance,
         ];
         let numbers = RIG.into_iter().zip(numbers.map(told));
-        let ranges = rig.projection.ranges(rig).into_iter().map(|range| {
+        let ranges = rig.ranges().into_iter().map(|range| {
             let [from, to] = range.perceived();
             [range.near, range.far, from, to].map(told)
         });

@@ -16,12 +16,12 @@ pub(super) fn plain(text: &str) -> String {
     plain
 }
 
-/// Whether a manifest may have this character in a text.
+/// True if a manifest may have this character in a text.
 pub(super) fn is_plain(c: char) -> bool {
     c == ' ' || c.is_ascii_graphic()
 }
 
-/// What is wrong with a text; nothing if it is a line that a manifest may have.
+/// The fault of a text; none if it is a line that a manifest may have.
 pub(super) fn fault(text: &str) -> Option<String> {
     if text.len() > LONGEST {
         return Some(format!("at most {LONGEST} characters"));
@@ -29,7 +29,7 @@ pub(super) fn fault(text: &str) -> Option<String> {
     (!text.chars().all(is_plain)).then(|| "printable ASCII characters in one line".into())
 }
 
-/// Whether a text is a hash as this program writes it.
+/// True if a text is a hash as this program writes it.
 pub(super) fn is_hash(text: &str) -> bool {
     text.len() == 64 && text.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
 }

@@ -14,7 +14,7 @@ use wheatstone_golden::interface::{Direction, Stream, Table};
 /// Name and version of this program.
 pub(super) const GENERATOR: &str = concat!("wheatstone ", env!("CARGO_PKG_VERSION"));
 
-/// What was written.
+/// A pack that was written.
 #[derive(Clone, Debug)]
 pub struct PackInfo {
     /// Folder of the pack.

@@ -1,4 +1,4 @@
-//! How far the proof of a module goes.
+//! The effort that the proof of a module is worth.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ pub const LIMIT: Duration = Duration::from_secs(60);
 /// a machine whose processor happens to be slow.
 pub const SHORT: Duration = LIMIT.checked_div(5).unwrap();
 
-/// How far a proof goes.
+/// The clocks that a proof covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     /// Clocks of induction that are tried.
@@ -45,8 +45,8 @@ impl Effort {
         Effort { induction, bound, deep, left_out: &[] }
     }
 
-    /// What a default test can afford of a module's first build: no prover needs more than [`SHORT`]. None of
-    /// modules that are not in the short set.
+    /// The effort that a default test can afford for a module's first build: no prover needs more than
+    /// [`SHORT`]. None of modules that are not in the short set.
     pub fn quick(module: &str) -> Option<Effort> {
         if ["coverage_edge", "primary_planes", "hybrid_planes"].contains(&module) {
             return None;
@@ -64,7 +64,7 @@ impl Effort {
         }
     }
 
-    /// Whether it is that of a module for which one clock is all there is.
+    /// True if it is that of a module for which one clock is all there is.
     pub(super) fn has_no_registers(self) -> bool {
         self.bound == 1
     }

@@ -1,31 +1,32 @@
 //! Netlists of gates against the Verilog that they were made of: the same for ever, by induction over
 //! the registers, which synthesis leaves their names.
 
-use super::{tenths, Prover};
+use super::prover::Prover;
+use super::verdict::tenths;
 use crate::flow::{self, FlowError};
 use crate::tools::YOSYS;
 use serde::{Deserialize, Serialize};
 use wheatstone_golden::config::Config;
 use wheatstone_golden::targets::Target;
 
-/// What came of a comparison.
+/// The result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equivalence {
     /// Signals of both that were compared; 0 if the prover was stopped.
     pub points: u32,
-    /// Those of them that were not proved equal.
+    /// Signals that were not proved equal.
     pub open: u32,
     /// Processor time.
     pub seconds: f64,
 }
 
 impl Equivalence {
-    /// Whether the netlist was proved.
+    /// True if the netlist was proved.
     pub fn closes(&self) -> bool {
         self.points > 0 && self.open == 0
     }
 
-    /// Whether the comparison came to its end and did not prove it.
+    /// True if the comparison came to its end and did not prove it.
     pub fn differs(&self) -> bool {
         self.open > 0
     }
@@ -72,7 +73,7 @@ fn script(read: &str, module: &str) -> String {
     )
 }
 
-/// How many points were compared, and how many of them are open.
+/// The number of points that were compared, and of those that are open.
 fn points(stat: &str) -> Option<(u32, u32)> {
     let words = |line: &str| line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
     let numbers: Vec<u32> = stat.lines().find(|line| line.contains("are proven")).map(words)?;

@@ -1,25 +1,28 @@
 //! The committed record of what is proved, and the tables of `docs/formal.md`.
 
-use super::{properties, Build, Effort, Equivalence, Proof, Verdict, SHORT};
+use super::build::Build;
+use super::effort::{Effort, SHORT};
+use super::netlist::Equivalence;
+use super::property::{name, properties};
+use super::verdict::{Proof, Verdict};
+use crate::record::{read_record, RecordError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use thiserror::Error;
+use std::path::Path;
 use wheatstone_golden::files::{self, WriteError};
-use wheatstone_golden::text::printable_path;
 
-/// Where it is in the workspace.
+/// Path of the record in the workspace.
 pub const FILE: &str = "formal/record.json";
 
-/// What was proved of a build.
+/// A build and its proof.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proved {
     /// Module without `sam_`.
     pub module: String,
     /// The build's label.
     pub build: String,
-    /// What came of it.
+    /// The result.
     #[serde(flatten)]
     pub proof: Proof,
 }
@@ -33,47 +36,37 @@ impl Proved {
     /// The weakest verdict of a property's parts.
     pub fn verdict(&self, property: &str) -> Option<Verdict> {
         let verdicts = self.proof.verdicts.iter();
-        let of_it = verdicts.filter(|(label, _)| super::name(label) == Some(property));
+        let of_it = verdicts.filter(|(label, _)| name(label) == Some(property));
         of_it.map(|(_, verdict)| *verdict).min()
     }
 }
 
-/// What came of the comparison of a netlist.
+/// The result of the comparison of a netlist.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
     /// The target's name.
     pub target: String,
     /// Name of the configuration.
     pub config: String,
-    /// What came of it.
+    /// The result.
     #[serde(flatten)]
     pub equivalence: Equivalence,
 }
 
 impl Compared {
-    /// What is told of one that differs.
+    /// The report on one that differs.
     pub fn difference(&self) -> String {
         let Equivalence { points, open, .. } = self.equivalence;
         format!("{} {}: {open} of {points} points differ", self.target, self.config)
     }
 
-    /// Whether both are of the same target in the same configuration.
+    /// True if both are of the same target in the same configuration.
     fn is_same(&self, other: &Compared) -> bool {
         (&self.target, &self.config) == (&other.target, &other.config)
     }
 }
 
-/// The record could not be read.
-#[derive(Debug, Error)]
-#[error("{}: {why}; write it with: wheatstone prove --record", printable_path(.path))]
-pub struct RecordError {
-    /// The file.
-    pub path: PathBuf,
-    /// Why.
-    pub why: String,
-}
-
-/// What was tried of that which a record says.
+/// The part of a record that was tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// Everything.
@@ -97,11 +90,7 @@ pub struct Record {
 impl Record {
     /// The record of a workspace.
     pub fn read(workspace: &Path) -> Result<Record, RecordError> {
-        let path = workspace.join(FILE);
-        let parsed = files::read_own(&path)
-            .map_err(|error| error.to_string())
-            .and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
-        parsed.map_err(|why| RecordError { path, why })
+        read_record(workspace, FILE, "write it with: wheatstone prove --record")
     }
 
     /// Writes it, an entry a line, so that a change shows as such.
@@ -124,9 +113,9 @@ impl Record {
         self.netlists.sort_by_key(|entry| (entry.target.clone(), entry.config.clone()));
     }
 
-    /// What is proved for less than the record says, a line each; also what is not in it. Where fewer clocks
-    /// were tried than for the record, their number does not count. Clocks that are tried at the end, one
-    /// property after the other, depend on how fast the processor is, and do not count either.
+    /// Properties that are proved for less than the record says, a line each; also those that are not in it.
+    /// Where fewer clocks were tried than for the record, their number does not count. Clocks that are tried at
+    /// the end, one property after the other, depend on how fast the processor is, and do not count either.
     pub fn faults(&self, proofs: &[Proved], extent: Extent) -> Vec<String> {
         let worth = |verdict: Verdict| match (verdict, extent) {
             (Verdict::Fails(_), _) => (0, 0),
@@ -203,7 +192,7 @@ impl Record {
         text
     }
 
-    /// What proving everything takes.
+    /// The time that proving everything takes.
     pub fn time(&self) -> String {
         let minutes = seconds(&self.proofs) / 60.0;
         format!("\nProvers need {minutes:.1} minutes of processor time for everything.\n")
@@ -237,7 +226,7 @@ fn seconds(proofs: &[Proved]) -> f64 {
     proofs.iter().map(|proved| proved.proof.seconds).sum()
 }
 
-/// That proofs took more processor time than they may, a line each: everything 40 minutes, which is 20 on two
+/// Proofs that took more processor time than they may, a line each: everything 40 minutes, which is 20 on two
 /// processors; in the short set no prover more than [`SHORT`].
 pub fn slow(proofs: &[Proved], extent: Extent) -> Vec<String> {
     if extent == Extent::All {

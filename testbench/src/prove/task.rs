@@ -1,6 +1,8 @@
 //! A proof in a folder: runs of the provers, and what follows from them.
 
-use super::{name, Effort, Verdict};
+use super::effort::Effort;
+use super::property::name;
+use super::verdict::Verdict;
 use crate::flow::{FlowError, Folder};
 use crate::tools::{Found, Tool, YICES, YOSYS, YOSYS_ABC, YOSYS_SMTBMC};
 use std::cell::RefCell;
@@ -39,7 +41,7 @@ impl Programs {
     }
 }
 
-/// What came of a run of the prover.
+/// The result of a run of the prover.
 pub(super) enum Run {
     /// It holds; the clocks of induction that were needed.
     Passed(u32),
@@ -204,7 +206,7 @@ impl Task<'_> {
         self.run(left_out, &["--presat"], clocks)
     }
 
-    /// Whether all assertions of a module without registers are proved by merging gates that are equal,
+    /// True if all assertions of a module without registers are proved by merging gates that are equal,
     /// which finds sums to be the same in whatever order they are formed. None if the prover was stopped.
     pub fn holds_in_every_state(&self) -> Result<Option<bool>, FlowError> {
         let script = format!(

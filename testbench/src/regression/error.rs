@@ -1,4 +1,4 @@
-//! Why the regression could not run.
+//! Errors of the regression.
 
 use crate::waves::WaveError;
 use crate::{BuildError, JobError, LoadError, TraceError};
@@ -29,7 +29,7 @@ pub enum RegressionError {
     File {
         /// Which one.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: std::io::Error,
     },
     /// The worker threads could not be started.

@@ -1,29 +1,21 @@
-//! The first-mismatch report, and the run that repeats it with waveforms.
+//! The first-mismatch report.
 
-use super::report::counted;
-use super::run::{MemoryFault, Ran, Setting};
-use super::{Event, Ground, RegressionError, Waves};
+use super::run::{Ran, Setting};
+use crate::memory::MemoryFault;
+use crate::numbers::counted;
 use crate::shell::{command_line, operand};
-use crate::waves::{Dump, View};
 use crate::{Difference, Fault, Library, Mismatch, Outcome, Place, Probe};
 use serde::Serialize;
 use std::ffi::OsStr;
 use std::fmt;
-use std::fs;
-use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::interface::{Beat, Direction};
 use wheatstone_golden::pipeline::observer::Unit;
 use wheatstone_golden::pipeline::{Mode, Op, Pixel, PrimaryBeat, Request, Setup};
 use wheatstone_golden::record::Recording;
-use wheatstone_golden::targets::unit_of;
+use wheatstone_golden::targets::{unit_of, Target};
 use wheatstone_golden::text::printable_path;
-
-/// Cycles shown before a difference.
-const BEFORE: u64 = 100;
-/// Cycles shown after it.
-const AFTER: u64 = 20;
 
 /// A pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -48,7 +40,7 @@ pub struct Failure {
     pub target: &'static str,
     /// The case.
     pub case: String,
-    /// What is wrong, in a sentence.
+    /// The difference, in a sentence.
     pub what: String,
     /// The pixel, where one is concerned.
     pub pixel: Option<Location>,
@@ -74,88 +66,24 @@ pub struct Failure {
     pub repeat: String,
     /// Waveforms around the cycle.
     pub waves: Option<PathBuf>,
-    /// Why there are none.
+    /// The reason why there are none.
     pub waves_error: Option<String>,
 }
 
-/// One run of a case.
-pub(super) struct Attempt<'a> {
-    pub ground: &'a Ground<'a>,
-    /// Name of the entry.
-    pub case: &'a str,
-    /// Number of the run in its entry, from 1.
-    pub run: u64,
-    /// Random beats that the case was made of, or that were asked for.
-    pub beats: Option<u64>,
-    pub setting: &'a Setting<'a>,
-}
-
-impl Attempt<'_> {
-    /// The report of a run that failed; `again` repeats it with waveforms. It is told of before that:
-    /// whatever becomes of the waveforms, the difference is known.
-    pub fn fail(
-        &self,
-        ran: &Ran,
-        again: impl FnOnce(&Setting) -> Result<(), RegressionError>,
-    ) -> Failure {
-        let mut failure = Failure::new(self, ran);
-        (self.ground.tell)(Event::Mismatch(&failure));
-        if let Some(cycle) = failure.cycle.filter(|_| self.ground.plan.waves != Waves::Never) {
-            let cycles = cycle.saturating_sub(BEFORE)..=cycle + AFTER;
-            match self.waves(cycles, Some((cycle, "first mismatch")), again) {
-                Ok(file) => failure.waves = Some(file),
-                Err(error) => failure.waves_error = Some(error.to_string()),
-            }
-        }
-        failure
-    }
-
-    /// Writes waveforms and their views; `again` repeats the run.
-    pub fn waves(
-        &self,
-        cycles: RangeInclusive<u64>,
-        marker: Option<(u64, &str)>,
-        again: impl FnOnce(&Setting) -> Result<(), RegressionError>,
-    ) -> Result<PathBuf, RegressionError> {
-        let Ground { plan, library, target, .. } = self.ground;
-        let dump = Dump::new(cycles)?;
-        again(&Setting { trace: Some(dump.window()), ..self.setting.clone() })?;
-        let out = &plan.out;
-        fs::create_dir_all(out)
-            .map_err(|source| RegressionError::File { path: out.clone(), source })?;
-        let (target, case, seed) = (target.name(), slug(self.case), self.setting.seed);
-        let place = out.join(format!("{target}-{case}-seed{seed}-run{}.fst", self.run));
-        let (interface, units) = (library.interface(), library.probes());
-        dump.deliver(&place, &View { interface, units, marker })?;
-        Ok(place)
-    }
-
-    /// The command that repeats the case from its seed.
-    fn repeat(&self) -> String {
-        let Ground { plan, target, .. } = self.ground;
-        let (seed, beats) = (self.setting.seed.to_string(), self.beats.map(|n| n.to_string()));
-        let mut words = vec![plan.program.as_str(), "cosim", target.name()];
-        words.extend(plan.words.iter().map(String::as_str));
-        words.extend(["--case", self.case, "--seed", &seed]);
-        words.extend(beats.iter().flat_map(|beats| ["--beats", beats]));
-        command_line(words)
-    }
-}
-
-/// A case's name as part of the name of a file.
-fn slug(case: &str) -> String {
-    let stem = Path::new(case).file_stem().unwrap_or_default().to_string_lossy();
-    let words = stem.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty());
-    words.collect::<Vec<_>>().join("-")
-}
-
 impl Failure {
-    fn new(attempt: &Attempt, ran: &Ran) -> Failure {
-        let target = attempt.ground.target.name();
-        let Setting { seed, stalls, .. } = *attempt.setting;
+    /// The report of a run that failed; `repeat` is the command that repeats it.
+    pub(super) fn new(
+        target: Target,
+        case: &str,
+        setting: &Setting,
+        repeat: String,
+        ran: &Ran,
+    ) -> Failure {
+        let target = target.name();
+        let Setting { library, seed, stalls, .. } = *setting;
         let mut failure = Failure {
             target,
-            case: attempt.case.into(),
+            case: case.into(),
             what: ran.outcome.to_string(),
             pixel: None,
             polygon: None,
@@ -167,7 +95,7 @@ impl Failure {
             cycle: None,
             seed,
             stalls: [stalls.idle.name(), stalls.back_pressure.name()],
-            repeat: attempt.repeat(),
+            repeat,
             waves: None,
             waves_error: None,
         };
@@ -175,7 +103,7 @@ impl Failure {
             Outcome::Mismatch(mismatch) => {
                 failure.mismatch(mismatch, ran.recording.as_deref());
                 // What comes into a unit wrong is not the unit's fault.
-                if goes_in(&attempt.ground.library, &mismatch.place) {
+                if goes_in(library, &mismatch.place) {
                     failure.unit = target.into();
                 }
             }
@@ -248,7 +176,7 @@ impl Failure {
     }
 }
 
-/// Whether a stream is an input of a unit inside a system.
+/// True if a stream is an input of a unit inside a system.
 fn goes_in(library: &Library, place: &Place) -> bool {
     let of_unit = |probe: &&Probe| place.instance.as_ref() == Some(&probe.instance);
     let mut streams = library.probes().iter().filter(of_unit).flat_map(|probe| &probe.streams);

@@ -1,9 +1,22 @@
 //! The models of a regression, each built once.
 
-use super::{model_probes, Plan};
-use crate::{BuildError, Builder, Library, Spec};
+use super::plan::Plan;
+use crate::{BuildError, Builder, Library, Probe, Spec};
 use std::sync::{Arc, OnceLock};
-use wheatstone_golden::targets::Target;
+use wheatstone_golden::config::Config;
+use wheatstone_golden::targets::{probes, Target};
+
+/// The probes of a system, as the model wants them.
+pub fn model_probes(target: Target, config: &Config) -> Vec<Probe> {
+    let units = target.is_system().then(|| probes(target, config)).into_iter().flatten();
+    units
+        .map(|probe| Probe {
+            instance: probe.path,
+            module: probe.module,
+            streams: vec![probe.stream],
+        })
+        .collect()
+}
 
 /// A model, or why there is none: that does not change by another try.
 type Built = Result<Library, Arc<BuildError>>;

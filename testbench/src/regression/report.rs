@@ -1,6 +1,8 @@
-//! What a regression says at the end: a table, JSON, JUnit XML.
+//! Reports of a regression: a table, JSON, JUnit XML.
 
-use super::{Entry, Failure, SceneEntry};
+use super::entry::{Entry, SceneEntry};
+use super::failure::Failure;
+use crate::numbers::counted;
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{Cell, CellAlignment, Table};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
@@ -9,24 +11,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::primary::Counts as Drawn;
-
-/// A number with its thousands set off.
-fn grouped(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// So many things, singular where it is one.
-pub(crate) fn counted(n: u64, thing: &str) -> String {
-    format!("{} {thing}{}", grouped(n), if n == 1 { "" } else { "s" })
-}
+use wheatstone_golden::text::Grouped;
 
 /// The table of targets, cases, what was compared, and mismatches.
 pub fn table(entries: &[Entry]) -> String {
@@ -53,9 +38,11 @@ pub fn table(entries: &[Entry]) -> String {
             Cell::new(entry.target.name()),
             Cell::new(&entry.name),
             Cell::new(entry.runs),
-            Cell::new(grouped(entry.beats)),
-            Cell::new(grouped(entry.compared)),
-            Cell::new(entry.scene.as_ref().map_or(String::new(), |s| grouped(s.pixels))),
+            Cell::new(Grouped(entry.beats)),
+            Cell::new(Grouped(entry.compared)),
+            Cell::new(
+                entry.scene.as_ref().map_or(String::new(), |s| Grouped(s.pixels).to_string()),
+            ),
             Cell::new(format!("{rate:.2}")),
             Cell::new(u8::from(!entry.passed())),
         ]);
@@ -77,31 +64,31 @@ pub fn table(entries: &[Entry]) -> String {
     )
 }
 
-/// How a scene went, in a line.
+/// The figures of a scene, in a line.
 fn scene_line(scene: &SceneEntry) -> String {
     format!(
         "{}; {}, beats on {:.2} % of them; pixels left {}, right {}",
         drawn_line(&scene.drawn),
         counted(scene.clocks, "clock"),
         100.0 * scene.acceptance,
-        grouped(scene.written[0]),
-        grouped(scene.written[1]),
+        Grouped(scene.written[0]),
+        Grouped(scene.written[1]),
     )
 }
 
-/// How polygons were drawn, in a line.
+/// Counts of polygons, by the way in which they were drawn, in a line.
 pub fn drawn_line(drawn: &Drawn) -> String {
     let mut parts =
-        vec![counted(drawn.polygons, "polygon"), format!("{} derived", grouped(drawn.derived))];
+        vec![counted(drawn.polygons, "polygon"), format!("{} derived", Grouped(drawn.derived))];
     let reasons: Vec<String> = drawn
         .monocular
         .iter()
-        .map(|(reason, n)| format!("{} {}", grouped(*n), reason.name()))
+        .map(|(reason, n)| format!("{} {}", Grouped(*n), reason.name()))
         .collect();
     let monocular: u64 = drawn.monocular.values().sum();
     let why = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
-    parts.push(format!("{} monocular{why}", grouped(monocular)));
-    parts.push(format!("{} covering nothing", grouped(drawn.nothing)));
+    parts.push(format!("{} monocular{why}", Grouped(monocular)));
+    parts.push(format!("{} covering nothing", Grouped(drawn.nothing)));
     if drawn.beats() > 0 {
         parts.push(counted(drawn.beats(), "beat"));
     }
@@ -226,9 +213,7 @@ mod tests {
     use wheatstone_golden::targets::Target;
 
     #[test]
-    fn one_is_singular() {
-        let counts = [0, 1, 2, 12_345].map(|n| counted(n, "beat"));
-        assert_eq!(counts, ["0 beats", "1 beat", "2 beats", "12,345 beats"]);
+    fn an_entry_is_counted_with_what_it_compared() {
         let mut entry = Entry::new(Target::Display, "random");
         assert!(junit(&[Entry::new(Target::Display, "random")])
             .is_ok_and(|xml| xml.contains("errors=\"1\"") && xml.contains("nothing was compared")));

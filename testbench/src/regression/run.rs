@@ -1,29 +1,21 @@
 //! Running one case, or one scene, on a model.
 
-use super::RegressionError;
+use super::error::RegressionError;
 use crate::cases::{recorded, Case};
-use crate::memory::Memory;
-use crate::{
-    Bench, Counts, Difference, Job, Library, Outcome, Probe, Responder, Stalls, TraceWindow,
-};
+use crate::memory::{compare_frames, Memory, MemoryFault};
+use crate::{Bench, Counts, Job, Library, Outcome, Responder, Stalls, TraceWindow};
 use std::time::{Duration, Instant};
-use wheatstone_golden::config::Config;
-use wheatstone_golden::formats::{Depth, Eye, Formats, Quantity};
-use wheatstone_golden::frame::{Frame, Frames};
-use wheatstone_golden::interface::{Beat, Direction, Interface, Table};
-use wheatstone_golden::pipeline::Response;
+use wheatstone_golden::frame::Frames;
+use wheatstone_golden::interface::{Direction, Interface, Table};
 use wheatstone_golden::primary::{Counts as Drawn, Primary};
 use wheatstone_golden::record::{Recording, Tape};
 use wheatstone_golden::stereo::{pieces, Job as Scene};
-use wheatstone_golden::targets::{probes, Target};
-
-/// Colour and depth in a frame buffer are as wide in all configurations.
-const FORMATS: Formats = Formats::new(&Config::DEFAULT);
+use wheatstone_golden::targets::Target;
 
 /// Beats after which a scene goes on in a new part, so that memory stays bounded.
 const PART: usize = 1 << 17;
 
-/// How a case is run.
+/// The circumstances of a run.
 #[derive(Clone)]
 pub struct Setting<'a> {
     /// The model.
@@ -38,7 +30,7 @@ pub struct Setting<'a> {
     pub trace: Option<TraceWindow>,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Clone, Debug)]
 pub struct Ran {
     /// Result of the comparison of streams.
@@ -52,86 +44,10 @@ pub struct Ran {
 }
 
 impl Ran {
-    /// Whether everything was compared and equal.
+    /// True if everything was compared and equal.
     pub fn passed(&self) -> bool {
         matches!(self.outcome, Outcome::Passed(_)) && self.memory.is_empty()
     }
-}
-
-/// A difference in the frame buffers.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum MemoryFault {
-    /// A background read gave something else than the golden model read.
-    Stale {
-        /// Number of the read.
-        read: u64,
-        /// What the golden model read.
-        expected: Response,
-        /// What the memory held.
-        actual: Response,
-    },
-    /// A pixel of a frame buffer differs at the end.
-    Pixel {
-        /// Whose.
-        eye: Eye,
-        /// Column.
-        x: u32,
-        /// Row.
-        y: u32,
-        /// Colour and depth of the golden model.
-        expected: Response,
-        /// Colour and depth of the Verilog.
-        actual: Response,
-        /// Number of pixels that differ.
-        count: u64,
-    },
-}
-
-impl MemoryFault {
-    /// The fields that differ.
-    pub fn differences(&self) -> Vec<Difference> {
-        let (Self::Stale { expected, actual, .. } | Self::Pixel { expected, actual, .. }) = self;
-        let fields = Response::fields(&FORMATS);
-        let [expected, actual] = [expected, actual].map(|response| {
-            let mut row = Vec::new();
-            response.write(&mut row);
-            row
-        });
-        Difference::all(&fields, &expected, &actual)
-    }
-}
-
-/// The probes of a system, as the model wants them.
-pub fn model_probes(target: Target, config: &Config) -> Vec<Probe> {
-    let units = target.is_system().then(|| probes(target, config)).into_iter().flatten();
-    units
-        .map(|probe| Probe {
-            instance: probe.path,
-            module: probe.module,
-            streams: vec![probe.stream],
-        })
-        .collect()
-}
-
-/// Frame buffers that differ: the first pixel, and how many.
-fn compare_frames(golden: &Frames, actual: &Frames) -> Vec<MemoryFault> {
-    let mut faults = Vec::new();
-    for eye in Eye::BOTH {
-        let [golden, actual] = [golden, actual].map(|f| &f.eyes[eye as usize]);
-        let held = |frame: &Frame, n: usize| Response {
-            rgb: frame.colour[n],
-            depth: Depth::new(frame.depth[n].into(), &FORMATS),
-        };
-        let pixels = 0..golden.colour.len();
-        let mut different = pixels.filter(|&n| held(golden, n) != held(actual, n));
-        if let Some(first) = different.next() {
-            let (expected, actual) = (held(golden, first), held(actual, first));
-            let (x, y) = (first as u32 % golden.width, first as u32 / golden.width);
-            let count = 1 + different.count() as u64;
-            faults.push(MemoryFault::Pixel { eye, x, y, expected, actual, count });
-        }
-    }
-    faults
 }
 
 /// A bench with everything that a run of the case needs.
@@ -270,9 +186,9 @@ pub(super) fn run_case_watched(
 
 /// A scene that a system drew.
 pub struct SceneRan {
-    /// What came of it.
+    /// The result of the last part.
     pub ran: Ran,
-    /// How its polygons were drawn.
+    /// Counts of its polygons, by the way in which they were drawn.
     pub drawn: Drawn,
     /// The frame buffers that the Verilog filled.
     pub frames: Frames,

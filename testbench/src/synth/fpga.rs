@@ -1,7 +1,9 @@
 //! Area and timing on FPGAs: a target in a serial harness, so that pins do not limit it, synthesised,
 //! placed and routed from three seeds.
 
-use super::{Design, Figure, Figures, Folder, SynthError};
+use super::design::Design;
+use super::tech::{Figure, Figures};
+use crate::flow::{FlowError, Folder};
 use crate::layout::Layout;
 use crate::tools::{self, Tool};
 use serde_json::Value;
@@ -15,7 +17,7 @@ pub(super) struct Chip {
     synthesis: &'static str,
     nextpnr: &'static Tool,
     arguments: &'static [&'static str],
-    /// Where the pins of the harness are, in the file [`PINS`].
+    /// Places of the pins of the harness, as in the file [`PINS`].
     pins: &'static str,
     /// The cells that make up a figure, by the start of their names, each with its weight.
     cells: &'static [(Figure, &'static [(&'static str, f64)])],
@@ -63,7 +65,7 @@ const PINS: &str = "pins";
 const SEEDS: [u32; 3] = [1, 2, 3];
 
 /// Cells after synthesis and the clock after routing.
-pub(super) fn measure(design: &Design<'_>, chip: &Chip) -> Result<Figures, SynthError> {
+pub(super) fn measure(design: &Design<'_>, chip: &Chip) -> Result<Figures, FlowError> {
     let (yosys, nextpnr) = (chip.yosys.find()?, chip.nextpnr.find()?);
     let (harness, script) = (harness(design.interface), script(design, chip));
     let arguments = chip.arguments.join(" ");
@@ -83,7 +85,7 @@ pub(super) fn measure(design: &Design<'_>, chip: &Chip) -> Result<Figures, Synth
             match folder.run(chip.nextpnr, &mut command, &[]) {
                 Ok(()) => clocks.push(clock(folder, chip.nextpnr)?),
                 // As large as it is, it has no clock on this chip.
-                Err(SynthError::Failed { lines, .. }) if is_too_large(&lines) => {
+                Err(FlowError::Failed { lines, .. }) if is_too_large(&lines) => {
                     return Ok(figures);
                 }
                 Err(error) => return Err(error),
@@ -95,7 +97,7 @@ pub(super) fn measure(design: &Design<'_>, chip: &Chip) -> Result<Figures, Synth
     })
 }
 
-/// Whether the placer gave up for want of room.
+/// True if the placer gave up for want of room.
 fn is_too_large(lines: &str) -> bool {
     ["nable to place", "no BELs remaining", "ailed to place", "ailed to expand region"]
         .iter()
@@ -178,7 +180,7 @@ fn count_name(line: &str) -> &str {
 }
 
 /// The clock in a report of nextpnr, in MHz.
-fn clock(folder: &Folder, tool: &'static Tool) -> Result<f64, SynthError> {
+fn clock(folder: &Folder, tool: &'static Tool) -> Result<f64, FlowError> {
     let text = folder.read(tool, "report.json")?;
     let report: Option<Value> = serde_json::from_str(&text).ok();
     let clocks = report.as_ref().and_then(|report| report["fmax"].as_object());

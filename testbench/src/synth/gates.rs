@@ -1,6 +1,8 @@
 //! Gate counts: mapped to standard cells, area over that of a two-input NAND.
 
-use super::{Design, Figure, Figures, Folder, SynthError};
+use super::design::Design;
+use super::tech::{Figure, Figures};
+use crate::flow::{FlowError, Folder};
 use crate::tools::{self, YOSYS};
 use wheatstone_golden::files;
 
@@ -30,11 +32,11 @@ const LIBRARIES: [Library; 2] = [
 const PRIMITIVE: &str = include_str!("../../../synth/primitive.lib");
 
 /// Gates in both libraries.
-pub(super) fn measure(design: &Design<'_>) -> Result<Figures, SynthError> {
+pub(super) fn measure(design: &Design<'_>) -> Result<Figures, FlowError> {
     let yosys = YOSYS.find()?;
     let path = tools::osu035("lib")?;
     let osu035 =
-        files::read_own(&path).map_err(|source| SynthError::Read { path: path.clone(), source })?;
+        files::read_own(&path).map_err(|source| FlowError::Read { path: path.clone(), source })?;
     let texts = [&osu035, PRIMITIVE];
     let script = script(design);
     let inputs =
@@ -66,7 +68,7 @@ fn script(design: &Design<'_>) -> String {
 }
 
 /// The gates that Yosys counted in a library.
-fn gates(folder: &Folder, library: &Library, text: &str) -> Result<f64, SynthError> {
+fn gates(folder: &Folder, library: &Library, text: &str) -> Result<f64, FlowError> {
     let stat = folder.read(&YOSYS, &format!("{}.stat", library.file))?;
     // A cell that the library does not have would count nothing.
     let known = !stat.contains("is unknown");

@@ -1,10 +1,11 @@
 //! Gate-level netlists in Verilog.
 
-use super::{Design, SynthError};
+use super::design::Design;
+use crate::flow::FlowError;
 use crate::tools::{self, YOSYS};
 use wheatstone_golden::files;
 
-/// What a netlist is made of.
+/// The cells of a netlist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cells {
     /// Gates and flip-flops in plain Verilog.
@@ -14,15 +15,14 @@ pub enum Cells {
 }
 
 /// Synthesises a design into cells; nothing of its hierarchy is left, nor are parameters.
-pub(super) fn make(design: &Design<'_>, cells: Cells) -> Result<String, SynthError> {
+pub(super) fn make(design: &Design<'_>, cells: Cells) -> Result<String, FlowError> {
     let yosys = YOSYS.find()?;
     let library = match cells {
         Cells::Generic => None,
         Cells::Osu035 => Some(tools::osu035("lib")?),
     };
     let library = library.map_or(Ok(Vec::new()), |path| {
-        files::read(&path, files::OWN_LIMIT)
-            .map_err(|e| SynthError::Read { path, source: e.source })
+        files::read(&path, files::OWN_LIMIT).map_err(|e| FlowError::Read { path, source: e.source })
     })?;
     let map = match cells {
         // Flip-flops begin at random values, as real ones do: an unknown one would spread through

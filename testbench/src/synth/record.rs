@@ -1,23 +1,23 @@
 //! The committed record of area and timing: written, compared with what is measured, and made into the
 //! tables of the documentation.
 
-use super::{Figure, Figures, Tech};
-use serde::de::DeserializeOwned;
+use super::tech::{Figure, Figures, Tech};
+use crate::numbers::thousands;
+use crate::record::{read_record, RecordError};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use thiserror::Error;
+use std::path::Path;
 use wheatstone_golden::config::Config;
 use wheatstone_golden::files::{self, WriteError};
 use wheatstone_golden::targets::Target;
-use wheatstone_golden::text::printable_path;
+use wheatstone_golden::text::Grouped;
 
-/// Where it is in the workspace.
+/// Path of the record in the workspace.
 pub const FILE: &str = "synth/record.json";
 
-/// How much an area may grow: 2 %. One that shrinks by more leaves the record out of date.
+/// Most that an area may grow: 2 %. One that shrinks by more leaves the record out of date.
 const GROWTH: f64 = 1.02;
-/// How far a clock may fall: by 10 %, about what placements of the same netlist differ by.
+/// Most that a clock may fall: by 10 %, about what placements of the same netlist differ by.
 const SLOWING: f64 = 0.90;
 
 /// Least clocks that are asked for, whatever was recorded, in MHz.
@@ -26,16 +26,16 @@ pub const FLOORS: [(Target, &str, Tech, f64); 2] = [
     (Target::Minimal, "default", Tech::Ice40, 80.0),
 ];
 
-/// What a target costs in a configuration.
+/// The cost of a target in a configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
     /// The target's name.
     pub target: String,
     /// Name of the configuration, with the parameters that were changed.
     pub config: String,
-    /// What it was synthesised for.
+    /// The technology that it was synthesised for.
     pub tech: Tech,
-    /// What was measured.
+    /// The measured figures.
     pub figures: Figures,
 }
 
@@ -44,12 +44,12 @@ impl Entry {
         (&self.target, &self.config, self.tech) == (&other.target, &other.config, other.tech)
     }
 
-    /// What it is of.
+    /// Name in messages.
     fn name(&self) -> String {
         format!("{} {} {}", self.target, self.config, self.tech.name())
     }
 
-    /// What is wrong where its clock is lower than asked for.
+    /// The fault of an entry whose clock is lower than asked for.
     fn below_floor(&self) -> Option<String> {
         let is_it = |(target, config, tech, _): &&(Target, &str, Tech, f64)| {
             (target.name(), *config, *tech) == (&self.target, &self.config, self.tech)
@@ -70,44 +70,6 @@ impl Entry {
             None => "–".into(),
         }
     }
-}
-
-/// A whole number with commas.
-pub fn thousands(value: f64) -> String {
-    let digits = format!("{value:.0}");
-    let mut text = String::new();
-    for (n, digit) in digits.chars().enumerate() {
-        if n > 0 && (digits.len() - n) % 3 == 0 {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// The record could not be read.
-#[derive(Debug, Error)]
-#[error("{}: {why}; {remedy}", printable_path(.path))]
-pub struct RecordError {
-    /// The file.
-    pub path: PathBuf,
-    /// Why.
-    pub why: String,
-    /// What to do.
-    pub remedy: &'static str,
-}
-
-/// Reads a committed record of a workspace; `remedy` says what to do where it cannot be read.
-pub fn read_record<T: DeserializeOwned>(
-    workspace: &Path,
-    file: &str,
-    remedy: &'static str,
-) -> Result<T, RecordError> {
-    let path = workspace.join(file);
-    let parsed = files::read_own(&path)
-        .map_err(|error| error.to_string())
-        .and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
-    parsed.map_err(|why| RecordError { path, why, remedy })
 }
 
 /// All figures, ordered by target, configuration and technology.
@@ -140,8 +102,8 @@ impl Record {
         self.0.sort_by_key(place);
     }
 
-    /// What has become worse than the entry here, a line each; also what is not here or has become so much
-    /// better that the entry is out of date, and clocks below [`FLOORS`].
+    /// Figures that have become worse than the entry here, a line each; also those that are not here or have
+    /// become so much better that the entry is out of date, and clocks below [`FLOORS`].
     pub fn faults(&self, entries: &[Entry]) -> Vec<String> {
         entries.iter().flat_map(|e| self.faults_of(e).into_iter().chain(e.below_floor())).collect()
     }
@@ -203,12 +165,12 @@ impl Record {
                 _ => "Table 1",
             };
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "\nPaper, {place}: {} gates.", thousands(gates.into()));
+            let _ = writeln!(text, "\nPaper, {place}: {} gates.", Grouped(gates.into()));
         }
         text
     }
 
-    /// Whether a column has something to say: chips without multipliers or memories need none.
+    /// True if a column has something to say: chips without multipliers or memories need none.
     fn is_used(&self, target: Target, (tech, figure): (Tech, Figure)) -> bool {
         let entries = Config::NAMES.iter().filter_map(|config| self.find(target, config, tech));
         let optional = matches!(figure, Figure::Dsps | Figure::Memories);
@@ -226,7 +188,8 @@ impl Record {
         row(&mut text, "", headings.iter().cloned());
         row(&mut text, "---", headings.iter().map(|_| "---".to_owned()));
         for target in Target::ALL {
-            let paper = published(target).map_or("–".into(), |gates| thousands(gates.into()));
+            let paper =
+                published(target).map_or("–".into(), |gates| Grouped(gates.into()).to_string());
             let gates = Tech::Gates.figures().iter().map(|figure| {
                 let entry = self.find(target, "paper", Tech::Gates);
                 entry.map_or("–".into(), |entry| entry.shown(*figure))
@@ -324,10 +287,5 @@ mod tests {
                 assert_eq!(record.faults(&[clocked(clock)]).len(), faults, "{clock:?}");
             }
         }
-    }
-
-    #[test]
-    fn numbers_have_commas() {
-        assert_eq!([5.0, 999.0, 1000.0, 22754.0].map(thousands), ["5", "999", "1,000", "22,754"]);
     }
 }

@@ -1,6 +1,12 @@
-//! What every model is compiled and linked with: Verilator's runtime, and the headers that models include.
+//! The common parts of all models: Verilator's runtime, and the headers that models include.
 
-use super::*;
+use super::builder::{absolute, is_folder, persist, run, write, Builder, Progress};
+use crate::build_error::BuildError;
+use crate::kept::{self, short, Kept};
+use crate::shim;
+use std::fs;
+use std::path::{Path, PathBuf};
+use wheatstone_golden::files;
 
 /// Sources of Verilator's runtime that every model is linked with.
 const RUNTIME: [&str; 4] = ["verilated", "verilated_threads", "verilated_fst_c", "verilated_cov"];
@@ -13,12 +19,12 @@ const HEADER: &str = "model.h";
 pub(super) struct Runtime(PathBuf);
 
 impl Runtime {
-    /// What models are compiled with before all else.
+    /// The header that models include before all else.
     pub fn header(&self) -> PathBuf {
         absolute(&self.0.join(HEADER))
     }
 
-    /// What they are linked with.
+    /// The objects that they are linked with.
     pub fn objects(&self) -> [PathBuf; RUNTIME.len()] {
         RUNTIME.map(|name| absolute(&self.0.join(format!("{name}.o"))))
     }

@@ -1,6 +1,6 @@
 //! Charts of one property each: disparity, ratio of the views, width, number of corners.
 
-use super::chart;
+use super::empty::chart;
 use crate::scene::vector::{add, rotate, scale, turn, Vec3};
 use crate::scene::{Colours, Mesh, Scene};
 

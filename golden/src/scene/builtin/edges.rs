@@ -1,7 +1,7 @@
 //! Charts of edge cases: faces for one eye, ties, and polygons that leave the picture.
 
-use super::chart;
 use super::diagnostic::{dim, hue, Painter};
+use super::empty::chart;
 use crate::scene::vector::{turn, Vec3};
 use crate::scene::{Rig, Scene};
 

@@ -7,6 +7,7 @@
 
 mod diagnostic;
 mod edges;
+mod empty;
 mod mason;
 pub mod office;
 mod paint;
@@ -19,7 +20,7 @@ mod village;
 
 use super::error::{check_size, SceneError, SIZE_LIMIT};
 use super::place::Placement;
-use super::{height_field, Rig, Scene};
+use super::{height_field, Scene};
 
 pub use teapot::{teapot, DEFAULT_LEVEL};
 
@@ -133,24 +134,4 @@ pub fn scene(name: &str, width: u32, height: u32) -> Result<Scene, SceneError> {
 fn atoms(width: u32, height: u32) -> Scene {
     let empty = height_field::empty_scene(width, height);
     height_field::scene(&height_field::atoms(), empty, &Placement::default())
-}
-
-/// An empty scene of which 32 × 24 cm of screen are in view.
-fn desk(width: u32, height: u32) -> Scene {
-    let pixels_per_unit = (f64::from(width) / 32.0).min(f64::from(height) / 24.0);
-    Scene { width, height, rig: Rig { pixels_per_unit, ..Rig::default() }, ..Scene::default() }
-}
-
-/// An empty unlit scene in units that are pixels of a 640 × 480 picture, with the eyes this far
-/// apart, 640 units from the screen.
-fn chart(width: u32, height: u32, eye_separation: f64) -> Scene {
-    let pixels_per_unit = (f64::from(width) / 640.0).min(f64::from(height) / 480.0);
-    Scene {
-        width,
-        height,
-        rig: Rig { pixels_per_unit, eye_separation, viewing_distance: 640.0, ..Rig::default() },
-        background: [24, 26, 32],
-        materials: vec![super::Material::default()],
-        ..Scene::default()
-    }
 }

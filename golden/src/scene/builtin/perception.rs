@@ -2,7 +2,7 @@
 //! than their surroundings and in the same (J. H. Heo, S. K. Jung and K. Y. Wohn, "Fast generation
 //! of stereoscopic virtual environment display using P-buffer", 1998, figures 8 and 11).
 
-use super::desk;
+use super::empty::desk;
 use super::quads::Quads;
 use crate::formats::Eye;
 use crate::scene::vector::{add, cross, scale, turn, unit, Vec3};

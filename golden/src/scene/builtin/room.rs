@@ -1,8 +1,9 @@
 //! A textured room with glossy things, on both sides of the screen.
 
+use super::empty::desk;
+use super::paint;
 use super::shapes::{append, cuboid, panel, sphere, torus, turned};
 use super::teapot::teapot;
-use super::{desk, paint};
 use crate::scene::vector::{add, rotate, scale, unit, Vec3};
 use crate::scene::{Environment, Light, Lighting, Material, Mesh, Panel, Scene, Source};
 use crate::texture::Texture;

@@ -4,7 +4,7 @@
 //! symmetries. Rim, body, lid and bottom are quarters of nearly round bowls, given by a profile;
 //! handle and spout are half tubes, given by an inner and an outer line.
 
-use super::desk;
+use super::empty::desk;
 use super::shapes::{append, surface, Sample};
 use crate::scene::vector::{add, cross, dot, rotate, scale, unit, Vec3};
 use crate::scene::{Environment, Light, Lighting, Material, Mesh, Scene, Source};

@@ -4,7 +4,7 @@
 //! Lengths are metres of the village: x to the right, y up, z away from the viewer. It is set up
 //! as a model on a desk, on both sides of the screen.
 
-use super::desk;
+use super::empty::desk;
 use super::mason::{toned, Mason, Paint, Wall};
 use crate::scene::vector::{add, rotate, scale, turn, Vec3};
 use crate::scene::{Light, Lighting, Material, Scene, Source};

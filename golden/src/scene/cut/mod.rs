@@ -12,13 +12,10 @@ mod simple;
 
 use super::vector::{add, cross, dot, mix, outward, scale, sub, unit, Vec3};
 use fastrand::Rng;
-use i_triangle::i_overlay::i_float::int::point::IntPoint;
 use i_triangle::int::triangulator::IntTriangulator;
+use simple::Point;
 use std::cmp::Ordering;
 use std::collections::HashMap;
-
-/// A point on the grid of a polygon's plane.
-type Point = IntPoint<i32>;
 
 /// Steps of the grid to half the longest side: no coordinate is twice that, and products of
 /// differences fit in 64 bits.

@@ -1,10 +1,13 @@
 //! Whether an outline touches itself (Shamos & Hoey 1976): a line sweeps over the plane, and only
 //! edges that are neighbours on it are compared.
 
-use super::Point;
+use i_triangle::i_overlay::i_float::int::point::IntPoint;
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashSet};
 use std::ops::Bound::{Excluded, Unbounded};
+
+/// A point on the grid of a polygon's plane.
+pub(super) type Point = IntPoint<i32>;
 
 /// Twice the area of a triangle, positive if counter-clockwise.
 fn side(a: Point, b: Point, c: Point) -> i64 {

@@ -1,8 +1,9 @@
 //! Building the tree.
 
+use super::part::Part;
 use super::piece::{Piece, Region, Window};
 use super::plane::{Plane, Side};
-use super::{Node, Part, Tree, NONE};
+use super::tree::{Node, Tree, NONE};
 use crate::formats::Eye;
 use crate::setup::{Attributes, Polygon};
 use crate::visibility::Surfaces;
@@ -25,6 +26,17 @@ const POOR: usize = 36;
 const LINE_SAMPLES: usize = 255;
 /// A line may cross one in so many of them.
 const MOST_CROSSED: usize = 4;
+
+impl Tree {
+    /// Builds the tree.
+    ///
+    /// The root of each cell is, of up to 16 evenly spaced polygons, the one that cuts fewest of a
+    /// sample of 48 others and divides them most evenly; planes that pass between the eyes come
+    /// last. Large cells that none of them divides well are divided by a row or a column of the views.
+    pub fn new(surfaces: &Surfaces) -> Tree {
+        Builder::new(surfaces).build()
+    }
+}
 
 /// Along what a view is divided.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,9 @@
 //! Traversals that paint.
 
+use super::part::{hull, Part};
 use super::piece::Region;
 use super::scan::Scan;
-use super::{hull, Node, Part, Tree, NONE};
+use super::tree::{Node, Tree, NONE};
 use crate::cost;
 use crate::formats::{Eye, FRACTION_BITS};
 use crate::setup::Linear;

@@ -3,9 +3,9 @@
 //! A cut does not touch the outline. It decides for each pixel that the polygon covers which piece
 //! has it, so that the pieces together cover what the polygon does.
 
+use super::part::Part;
 use super::plane::Side;
 use super::scan::Scan;
-use super::Part;
 use crate::formats::{Eye, Formats};
 use crate::setup::{Outline, Polygon};
 use std::ops::Range;

@@ -1,5 +1,7 @@
 use super::*;
+use crate::limits::on_tell;
 use std::fs;
+use std::sync::Mutex;
 
 fn sh(script: &str) -> Command {
     let mut command = Command::new("sh");

@@ -1,7 +1,9 @@
 //! Which of the tools are there: what `wheatstone doctor` tells.
 
-use crate::ask::{header, include};
-use crate::tools::*;
+use super::headers::{header, include};
+use super::known::*;
+use super::path::search_path;
+use super::tool::{Found, Tool, ToolError};
 use std::ffi::OsStr;
 use std::fmt;
 use std::path::PathBuf;
@@ -11,7 +13,7 @@ use std::path::PathBuf;
 pub struct Examined {
     /// The tool.
     pub tool: &'static Tool,
-    /// What was found.
+    /// The program that was found, or the error.
     pub result: Result<Found, ToolError>,
 }
 
@@ -71,7 +73,7 @@ impl Doctor {
         Doctor { rows }
     }
 
-    /// Whether everything that co-simulation needs is there.
+    /// True if everything that co-simulation needs is there.
     pub fn is_ready(&self) -> bool {
         self.rows.iter().all(|row| row.tool.optional || row.result.is_ok())
     }
@@ -107,5 +109,68 @@ impl fmt::Display for Doctor {
             table.add_row([tool.program, &format!("{purpose}{}", tool.purpose), &found, &install]);
         }
         write!(f, "{table}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tools::{Toolchain, Version};
+
+    #[test]
+    fn an_empty_path_gives_one_message_with_the_command() {
+        let error = Toolchain::find_in(OsStr::new("")).unwrap_err();
+        assert_eq!(error, ToolError::Missing(&VERILATOR));
+        let text = error.to_string();
+        assert!(text.contains("apt-get install verilator"), "{text}");
+        assert!(!Doctor::examine_in(OsStr::new("")).is_ready());
+    }
+
+    /// The error for a Verilator that is a shell script.
+    fn refused(script: &str) -> (ToolError, String) {
+        // A script cannot be run while a process just begun has it open for writing.
+        static ONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
+        let _one = ONE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let folder = tempfile::tempdir().unwrap();
+        let program = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, format!("#!/bin/sh\n{text}\n")).unwrap();
+            let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+            std::fs::set_permissions(&path, mode).unwrap();
+        };
+        program("verilator", script);
+        program("g++", "echo 12.2.0");
+        let error = Toolchain::find_in(folder.path().as_os_str()).unwrap_err();
+        let doctor = Doctor::examine_in(folder.path().as_os_str());
+        assert_eq!(doctor.rows[0].result.as_ref().unwrap_err(), &error, "the doctor sees it too");
+        let text = error.to_string();
+        assert!(text.contains(folder.path().join("verilator").to_str().unwrap()), "{text}");
+        assert!(text.contains("apt-get install verilator"), "{text}");
+        (error, text)
+    }
+
+    #[test]
+    fn an_old_verilator_is_refused() {
+        let (error, text) = refused("echo 'Verilator 4.038 2020-07-11 rev v4.036'");
+        assert!(matches!(error, ToolError::TooOld { found: Version { major: 4, minor: 38 }, .. }));
+        for part in ["5.006", "4.038", "an older one may stand first in PATH"] {
+            assert!(text.contains(part), "no “{part}” in: {text}");
+        }
+    }
+
+    #[test]
+    fn what_a_verilator_does_not_answer_is_told() {
+        let (error, text) = refused("echo nonsense");
+        assert!(matches!(error, ToolError::Unusable { .. }), "{text}");
+        assert!(text.contains("did not print its version"), "{text}");
+        let version = "[ $1 = --version ] && echo 'Verilator 5.006 2023-01-22' && exit";
+        for (answer, why) in [
+            ("exit 3", "--getenv VERILATOR_ROOT: it printed nothing (exit status: 3)"),
+            ("echo /nowhere", "--getenv VERILATOR_ROOT: it printed “/nowhere”"),
+        ] {
+            let (error, text) = refused(&format!("{version}\n{answer}"));
+            assert!(matches!(error, ToolError::Call { .. }), "{text}");
+            assert!(text.contains(why) && !text.contains("version"), "no “{why}” in: {text}");
+        }
     }
 }

@@ -16,98 +16,17 @@
 //!    moves, the watchdog ends the run.
 
 mod report;
+mod run;
 
-use crate::cursors::{Cursors, Words};
-use crate::job::{Job, Limits, Responder};
-use crate::model::{Library, Model, Seen};
+pub(crate) use run::{Run, JUNK};
+
+use crate::job::{Limits, Responder};
+use crate::model::{Model, Seen};
 use crate::outcome::Outcome;
-use crate::stalls::Pattern;
 use crate::watch::Watched;
-use report::payload;
-use wheatstone_golden::interface::{Direction, Table};
+use run::{bits, payload, State};
 
-/// The bits of a mask, lowest first.
-#[inline]
-fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let bit = mask.trailing_zeros();
-        mask &= mask.wrapping_sub(1);
-        (bit < u64::BITS).then_some(bit as usize)
-    })
-}
-
-/// What changes from clock to clock, a bit a stream.
-#[derive(Clone, Copy, Default)]
-struct State {
-    /// Inputs that have a beat and wait for their gate.
-    waiting: u32,
-    /// Inputs that are offering a beat.
-    offered: u32,
-    /// Inputs served in the last cycle.
-    freed: u32,
-    /// Outputs with a beat that was not taken in the last cycle.
-    held: u32,
-    /// Streams with rows left, or answers due.
-    unfinished: u32,
-}
-
-/// A run; the masks here do not change.
-pub(crate) struct Run<'a> {
-    /// Tables of all streams, the module's first, then those of the probes.
-    tables: Vec<Option<&'a Table>>,
-    cursors: Cursors<'a>,
-    gates: &'a [u32],
-    /// Outputs are ready for beats only that were offered in the last cycle and not taken.
-    until_valid: bool,
-    /// Random words, for the fields of inputs that offer nothing.
-    junk: &'a [Words; JUNK],
-    inputs: u32,
-    outputs: u32,
-    /// Streams with a table.
-    tabled: u32,
-    /// Inputs that answer requests, and the numbers of both.
-    answers: u32,
-    pairs: Vec<(usize, usize)>,
-    /// Probed streams that are compared.
-    watched: u64,
-}
-
-/// Rows of random words.
-pub(crate) const JUNK: usize = 16;
-
-impl<'a> Run<'a> {
-    /// Prepares a run; the job was checked. The length of `gates` is a power of two.
-    pub fn new(
-        library: &Library,
-        job: &Job<'a>,
-        gates: &'a [u32],
-        junk: &'a [Words; JUNK],
-    ) -> Run<'a> {
-        let layout = library.layout();
-        let tables = [job.tables, job.probes].concat();
-        let values: Vec<Option<&[u64]>> = tables.iter().map(|t| t.map(Table::values)).collect();
-        let mask = |tables: &[Option<&Table>]| -> u64 {
-            let bit = |(i, table): (usize, &Option<&Table>)| u64::from(table.is_some()) << i;
-            tables.iter().enumerate().map(bit).sum()
-        };
-        let answering = layout.streams.iter().enumerate();
-        let pairs: Vec<(usize, usize)> =
-            answering.filter_map(|(i, s)| s.answers.map(|request| (i, request))).collect();
-        Run {
-            cursors: Cursors::new(library, &values),
-            gates,
-            until_valid: job.stalls.back_pressure == Pattern::UntilValid,
-            junk,
-            inputs: layout.mask(Direction::Input),
-            outputs: layout.mask(Direction::Output),
-            tabled: mask(job.tables) as u32,
-            answers: pairs.iter().map(|(answer, _)| 1 << answer).sum(),
-            pairs,
-            watched: mask(job.probes),
-            tables,
-        }
-    }
-
+impl Run<'_> {
     /// Runs to the end, from cycle `start`; returns the result and the cycle after the last.
     pub fn go(
         &mut self,
@@ -183,17 +102,6 @@ impl<'a> Run<'a> {
             }
         };
         (result, cycle)
-    }
-
-    /// The state before the first clock.
-    fn begin(&self) -> State {
-        let tables = self.tables.iter().take(32).enumerate();
-        let filled = |(i, table): (usize, &Option<&Table>)| {
-            u32::from(table.is_some_and(|table| !table.is_empty())) << i
-        };
-        let unfinished = tables.map(filled).sum::<u32>() & (self.inputs | self.outputs);
-        let waiting = unfinished & self.inputs & !self.answers;
-        State { waiting, unfinished, ..State::default() }
     }
 
     /// Asks the responder for beats; returns the inputs that have one.

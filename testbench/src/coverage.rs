@@ -1,4 +1,4 @@
-//! What is counted, and its sum over all models.
+//! Counts of lines and toggles that models keep of their own code, and the sum over all models.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use wheatstone_golden::files::{self, Scratch};
 
-/// Whether a line was run, or a bit changed.
+/// A kind of point: a line that is run, or a bit that changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// A block of statements.
@@ -32,7 +32,7 @@ pub struct Point {
     pub file: String,
     /// Line in it.
     pub line: u32,
-    /// What is counted.
+    /// Kind of the point.
     pub kind: Kind,
     /// The signal's bit, or what begins at the line: `block`, `if`, `else`, …
     pub name: String,
@@ -76,7 +76,7 @@ impl Collector {
         }
     }
 
-    /// What was counted so far; nothing is left.
+    /// Takes the counts so far; nothing is left.
     pub fn take(&self) -> io::Result<Counts> {
         let mut collected = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let Collected { counts, error } = std::mem::take(&mut *collected);
