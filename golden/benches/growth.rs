@@ -10,7 +10,7 @@ use std::time::Instant;
 use wheatstone_golden::scene;
 
 const ROUNDS: usize = 5;
-/// How much longer the larger file may take; linear growth takes four times as long.
+/// Largest ratio of the times for the larger and the smaller file; linear growth gives 4.
 const LIMIT: f64 = 8.0;
 
 type Failure = Box<dyn std::error::Error>;

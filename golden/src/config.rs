@@ -6,7 +6,7 @@
 
 use core::fmt;
 
-/// How the box filter divides the sum of n pixels by n (paper, section 5.6.1).
+/// Division of the sum of n pixels by n in the box filter (paper, section 5.6.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Division {
     /// 1/n as two powers of two, as published.
@@ -50,7 +50,7 @@ impl Config {
         tilt: false,
         slots: 16,
     };
-    /// What McCann and Lister describe: 11.14 coordinates, two-term filter, subpixel coverage.
+    /// Configuration of McCann and Lister: 11.14 coordinates, two-term filter, subpixel coverage.
     pub const PAPER: Config = Config {
         subpixel_bits: 4,
         division: Division::TwoTerm,
@@ -214,7 +214,7 @@ pub const PARAMETERS: [Parameter; 8] = [
     },
 ];
 
-/// Why a parameter was not accepted.
+/// The reason why a parameter was not accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterError {
     /// No parameter has that name.

@@ -1,5 +1,5 @@
-//! What the fixed-point arithmetic that methods have in common takes, so that its work can be noted
-//! beside that of [`Counted`](crate::work::Counted) numbers.
+//! Operations of the fixed-point arithmetic that methods have in common, to be noted as work beside that of
+//! [`Counted`](crate::work::Counted) numbers.
 //!
 //! Counted are additions, multiplications, divisions and comparisons of coordinates, depths, colours
 //! and coefficients. Not counted are shifts, rounding, clamping to a window or to a range, negation,
@@ -22,7 +22,7 @@ pub const BLEND: Operations = Operations::new(7, 4, 0, 1);
 const CROSS: Operations = Operations::new(5, 2, 0, 0);
 /// The coefficients of a plane: two cross products, where its anchor is, three quotients.
 const THROUGH: Operations = Operations::new(18, 8, 3, 0);
-/// Whether an attribute is the same at three corners.
+/// Test that an attribute is the same at three corners.
 const SAME: Operations = Operations::comparisons(2);
 
 /// Area of an outline of so many corners, and whether it has one.

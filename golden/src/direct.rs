@@ -18,7 +18,7 @@ pub struct Direct<'a> {
     pub formats: Formats,
     /// Textures of the polygons.
     pub textures: &'a [Texture],
-    /// How textures are sampled.
+    /// Method of texture sampling.
     pub lookup: Lookup,
 }
 
@@ -77,7 +77,7 @@ impl Direct<'_> {
         });
     }
 
-    /// What the colour of a pixel of a polygon takes.
+    /// Operations for the colour of a pixel of a polygon.
     pub(crate) fn colour_cost(&self, polygon: &Polygon) -> Operations {
         let texture = polygon.texture.and_then(|n| self.textures.get(n as usize));
         cost::colour(texture.is_some(), self.lookup)

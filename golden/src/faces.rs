@@ -29,7 +29,7 @@ impl<T: Real> Plane<T> {
         a * x + b * y + c * z + d
     }
 
-    /// Whether an eye there sees the front.
+    /// True if an eye there sees the front.
     #[inline]
     pub fn faces(&self, eye: [T; 3]) -> bool {
         self.at(eye) > T::of(0.0)
@@ -52,16 +52,16 @@ impl<T: Real> Viewer<T> {
         Viewer { right, separation: T::of(separation) }
     }
 
-    /// How the eyes see a plane: S at the right eye, L = S − A·e at the left one (the same section; errata:
-    /// left data).
+    /// The plane's values at the eyes: S at the right one, L = S − A·e at the left one (the same section; errata: left
+    /// data).
     #[inline]
     pub fn facing(&self, plane: &Plane<T>) -> Facing<T> {
         let right = plane.at(self.right);
         Facing { values: [right - plane.0[0] * self.separation, right] }
     }
 
-    /// Whether the left and the right eye see the front, by the publication's decisions as they
-    /// should read (errata: back faces): two or three comparisons. [`Facing::front`] takes two and branches nowhere.
+    /// True for each eye, left and right, that sees the front, by the publication's decisions as they should read
+    /// (errata: back faces): two or three comparisons. [`Facing::front`] takes two and branches nowhere.
     pub fn decide(&self, plane: &Plane<T>) -> [bool; 2] {
         let zero = T::of(0.0);
         let right = plane.at(self.right);
@@ -81,7 +81,7 @@ impl<T: Real> Viewer<T> {
     }
 }
 
-/// How both eyes see a plane.
+/// A plane as both eyes see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facing<T> {
     /// The plane's values at the left and the right eye.
@@ -89,7 +89,7 @@ pub struct Facing<T> {
 }
 
 impl<T: Real> Facing<T> {
-    /// Whether the left and the right eye see the front.
+    /// True for each eye, left and right, that sees the front.
     #[inline]
     pub fn front(&self) -> [bool; 2] {
         self.values.map(|value| value > T::of(0.0))

@@ -108,9 +108,9 @@ impl Formats {
 
 /// A quantity with a declared format.
 pub trait Quantity: Copy {
-    /// What the quantity is called in messages.
+    /// Name of the quantity in messages.
     const NAME: &'static str;
-    /// Whether the raw value is two's complement.
+    /// True if the raw value is two's complement.
     const SIGNED: bool;
     /// Fraction bits of the raw value.
     const FRACTION: u32;
@@ -122,7 +122,7 @@ pub trait Quantity: Copy {
     fn new(raw: i64, formats: &Formats) -> Self;
     /// The quantity of a raw value reduced modulo its width.
     fn wrap(raw: i64, formats: &Formats) -> Self;
-    /// Whether a raw value fits the format.
+    /// True if a raw value fits the format.
     fn fits(raw: i64, formats: &Formats) -> bool {
         raw == reduce(raw, Self::bits(formats), Self::SIGNED)
     }
@@ -210,7 +210,7 @@ quantities! {
     EdgeValue(i64), true, 0, |f| f.edge_bits;
     /// Coefficient A or B of an edge function, in subpixels.
     Slope(i32), true, 0, |f| f.slope_bits;
-    /// What an edge function is below from the end of a row's span on (primary pipeline).
+    /// Exclusive upper bound of an edge function from the end of a row's span on (primary pipeline).
     Bound(i64), true, 0, |f| f.slope_bits + BOUND_BITS;
     /// The three highest dropped bits of an edge function, in eighths of its last place.
     LowBits(u8), false, 0, |_f| 3;
@@ -224,9 +224,9 @@ quantities! {
     Area(u8), false, 0, |f| f.area_bits;
     /// Coverage mask, one bit a sample, rows of four from the top; bit 0 is top left.
     Mask(u16), false, 0, |f| f.mask_bits;
-    /// What the sampler carries: colour lowest, above it depth where that is sampled.
+    /// Data of the sampler: colour lowest, above it depth where that is sampled.
     SampleData(u64), false, 0, |f| f.sample_bits;
-    /// What goes beside a colour through blending: whether the pixel passed the depth test.
+    /// Bit that goes beside a colour through blending: whether the pixel passed the depth test.
     Tag(u8), false, 0, |_f| 1;
     /// Number of pixels averaged by the filter: 0 to 29.
     Count(u8), false, 0, |_f| 5;

@@ -25,7 +25,7 @@ impl Default for Scissor {
 }
 
 impl Scissor {
-    /// Whether a column of an eye's view is drawn.
+    /// True if a column of an eye's view is drawn.
     #[inline]
     pub fn contains(&self, eye: Eye, column: i64) -> bool {
         let [first, end] = [self.first, self.end].map(|n| i64::from(n[eye as usize]));
@@ -138,7 +138,7 @@ pub struct Fragment {
     pub area: Area,
     /// Depth.
     pub depth: u32,
-    /// Whether the depth is to be written.
+    /// True if the depth is written.
     pub write: bool,
     /// Id of the polygon.
     pub id: u32,
@@ -199,13 +199,13 @@ impl Frames {
         }
     }
 
-    /// Whether blended pixels have passed the depth test already.
+    /// True if blended pixels have passed the depth test already.
     pub fn is_tested(&self) -> bool {
         self.tested
     }
 
-    /// What a read returns: what is in the frame, beside the scissor too, where nothing is ever drawn;
-    /// 0 outside the frame.
+    /// Response to a read: the content of the frame, beside the scissor too, where nothing is ever drawn; 0 outside the
+    /// frame.
     pub fn fetch(&self, eye: Eye, x: Coordinate, y: Coordinate) -> Response {
         let frame = &self.eyes[eye as usize];
         match self.index(eye, x, y) {

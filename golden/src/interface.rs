@@ -15,12 +15,12 @@ use alloc::{
     vec::Vec,
 };
 
-/// How the bits of a field are to be read.
+/// Type of the bits of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A number: two's complement if `signed`, with `fraction` fraction bits.
     Number {
-        /// Whether the number is two's complement.
+        /// True if the number is two's complement.
         signed: bool,
         /// Fraction bits.
         fraction: u32,
@@ -40,9 +40,9 @@ pub struct Field {
     pub name: &'static str,
     /// Width in bits, 1 to 64.
     pub bits: u32,
-    /// How to read the bits.
+    /// Type of the bits.
     pub kind: Kind,
-    /// What it means, one line.
+    /// Meaning, one line.
     pub doc: &'static str,
 }
 
@@ -330,7 +330,7 @@ impl Table {
         self.values.len() / self.masks.len().max(1)
     }
 
-    /// Whether there is no beat.
+    /// True if there is no beat.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
     }

@@ -8,7 +8,7 @@ use crate::setup::*;
 use crate::texture::{Lookup, Texture};
 use std::collections::BTreeMap;
 
-/// What receives the streams of the primary pipeline.
+/// Receiver of the streams of the primary pipeline.
 pub trait Sink {
     /// A polygon begins; its pixels have this id.
     fn polygon(&mut self, id: u32);
@@ -21,7 +21,7 @@ pub trait Sink {
     fn beat(&mut self, beat: &PrimaryBeat);
 }
 
-/// How the polygons of a scene were drawn.
+/// Statistics of the polygons of a scene, by the way in which they were drawn.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Polygons given.
@@ -62,7 +62,7 @@ impl Counts {
 /// The primary pipeline.
 #[derive(Clone, Debug)]
 pub struct Primary<'a> {
-    /// How polygons are drawn.
+    /// Decides how a polygon is drawn.
     pub planner: Planner,
     /// Statistics so far.
     pub counts: Counts,
@@ -77,7 +77,7 @@ struct Traversal<'a> {
     secondary: Secondary,
 }
 
-/// What the secondary pipeline does meanwhile.
+/// Task of the secondary pipeline meanwhile.
 enum Secondary {
     /// Nothing.
     Idle(Eye),

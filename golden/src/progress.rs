@@ -1,4 +1,4 @@
-//! How far the work is, for who waits for it.
+//! Progress of the work, for whoever waits for it.
 //!
 //! Long loops note here what they have done. Nothing is printed and no clock is read: a program that has something to
 //! tell its user looks at [`now`] when it is time to.
@@ -32,7 +32,7 @@ fn works() -> MutexGuard<'static, Vec<Arc<Work>>> {
     WORKS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// How far the work is that was begun last and goes on, in words.
+/// Progress of the work that was begun last and goes on, in words.
 pub fn now() -> Option<String> {
     works().last().map(|work| work.to_string())
 }
@@ -124,7 +124,7 @@ mod tests {
     use crate::texture::Lookup;
     use crate::work::Meter;
 
-    /// What is told of these two; other tests do other work meanwhile.
+    /// Progress of these two works; other tests do other work meanwhile.
     fn told() -> Vec<String> {
         let own = |text: &String| text.contains("thinking") || text.contains("counting");
         all().into_iter().filter(own).collect()

@@ -1,4 +1,4 @@
-//! How far a derived pair of views is from direct rendering.
+//! Difference of a derived pair of views from direct rendering.
 
 use crate::direct::depth_at;
 use crate::formats::{Eye, Formats, Rgba};
@@ -21,8 +21,8 @@ pub struct Quality {
     pub colours: usize,
     /// Pixels of another polygon.
     pub ids: usize,
-    /// Those of them at which the other polygon is too and has the same depth, to within a unit of
-    /// depth: what is seen there is a matter of rounding.
+    /// Pixels among them at which the other polygon is too and has the same depth, to within a unit of depth: which of
+    /// the two is seen there is a matter of rounding.
     pub ties: usize,
     /// Pixels of no polygon where there should be one.
     pub gaps: usize,

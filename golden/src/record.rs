@@ -146,17 +146,17 @@ impl Tape {
         self.0.ports.streams["beat"].len()
     }
 
-    /// Whether no beat was recorded since the last [`Tape::take`].
+    /// True if no beat was recorded since the last [`Tape::take`].
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// What the system has drawn so far.
+    /// The frames that the system has drawn so far.
     pub fn frames(&self) -> &Frames {
         &self.0.ports.frames
     }
 
-    /// What was recorded since the last call; the system goes on as it is.
+    /// The recording since the last call; the system goes on as it is.
     pub fn take(&mut self) -> Recording {
         let formats = self.0.watch.formats;
         let clear = |tables: &mut BTreeMap<Unit, Table>| {

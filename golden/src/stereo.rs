@@ -16,7 +16,7 @@ use crate::texture::{Lookup, Texture};
 use crate::work::{Meter, Unmetered};
 use std::borrow::Cow;
 
-/// How the second view is made.
+/// Method of making the second view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Each view rasterised for itself.
@@ -42,11 +42,11 @@ pub struct Job<'a> {
     pub background: [u8; 3],
     /// Columns of each view that are drawn.
     pub scissor: Scissor,
-    /// What to draw, in order.
+    /// The polygons, in drawing order.
     pub polygons: &'a [Polygon],
     /// Textures of the polygons.
     pub textures: &'a [Texture],
-    /// How textures are sampled.
+    /// Method of texture sampling.
     pub lookup: Lookup,
 }
 
@@ -118,7 +118,8 @@ impl Job<'_> {
         primary.counts
     }
 
-    /// How the polygons would be drawn, without drawing them: no beats are counted.
+    /// Statistics of the polygons as they would be drawn, without drawing them: no beats are
+    /// counted.
     pub fn planned(&self, minimal: bool) -> Counts {
         let planner = self.planner(minimal);
         let mut counts = Counts::default();
@@ -181,7 +182,7 @@ impl System {
         }
     }
 
-    /// Whether a polygon or a beat was refused.
+    /// True if a polygon or a beat was refused.
     pub fn error(&self) -> bool {
         match self {
             System::Minimal(minimal) => minimal.error(),

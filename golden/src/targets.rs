@@ -1,4 +1,4 @@
-//! What can be simulated: the units and the systems, and their interfaces.
+//! Targets of simulation: the units and the systems, and their interfaces.
 
 use crate::config::Config;
 use crate::formats::*;
@@ -92,7 +92,7 @@ impl Target {
         Target::ALL.into_iter().find(|t| t.name() == name)
     }
 
-    /// What it does, in a line.
+    /// Its line in `wheatstone list`.
     pub fn purpose(self) -> &'static str {
         match self {
             Target::XInterpolator => {
@@ -117,7 +117,7 @@ impl Target {
         }
     }
 
-    /// Whether it is a complete system.
+    /// True if it is a complete system.
     pub fn is_system(self) -> bool {
         matches!(self, Target::Minimal | Target::Hybrid | Target::Stereo)
     }

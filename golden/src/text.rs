@@ -10,7 +10,7 @@ use std::path::Path;
 /// Most characters of untrusted text in a message.
 pub const SHOWN: usize = 200;
 
-/// Why bytes are no text.
+/// The reason why bytes are no text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TextError {
     /// The text has another encoding.
@@ -120,8 +120,8 @@ impl fmt::Display for Grouped {
     }
 }
 
-/// Whether a character has no place on a line of a terminal: control characters, line separators, invisible
-/// characters and those that turn the direction of writing.
+/// True if a character has no place on a line of a terminal: control characters, line separators, invisible characters
+/// and those that turn the direction of writing.
 pub fn is_hidden(c: char) -> bool {
     let is_format = matches!(
         c,

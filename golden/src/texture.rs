@@ -13,7 +13,7 @@ pub struct Texture {
     pub texels: Vec<Rgba>,
 }
 
-/// How a texture is sampled.
+/// Method of texture sampling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lookup {
     /// The texel that holds the point.
@@ -24,7 +24,7 @@ pub enum Lookup {
 }
 
 impl Texture {
-    /// Whether something shows through anywhere in it.
+    /// True if any texel is translucent.
     pub fn is_translucent(&self) -> bool {
         self.texels.iter().any(|texel| texel.0[3] != 255)
     }

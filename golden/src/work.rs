@@ -24,7 +24,7 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// Those of some code that are noted rather than counted by [`Counted`] numbers.
+    /// Operations of some code, noted rather than counted by [`Counted`] numbers.
     pub const fn new(
         additions: u64,
         multiplications: u64,
@@ -136,7 +136,7 @@ fn one(kind: impl FnOnce(&mut Operations) -> &mut u64) {
     });
 }
 
-/// What a piece of code does with [`Counted`] numbers on this thread, and its result.
+/// Result of a piece of code, and its operations with [`Counted`] numbers on this thread.
 pub fn counted<T>(code: impl FnOnce() -> T) -> (T, Operations) {
     let before = DONE.with(Cell::get);
     let result = code();
@@ -215,7 +215,7 @@ impl PartialOrd for Counted {
     }
 }
 
-/// What an algorithm notes of its work beside arithmetic.
+/// Receiver of the work that an algorithm notes, beside what [`Counted`] numbers count.
 pub trait Meter {
     /// Notes work. Compiled to nothing in [`Unmetered`].
     fn note(&mut self, change: impl FnOnce(&mut Work));
@@ -291,7 +291,7 @@ impl Work {
         self.operations + self.fixed_point
     }
 
-    /// What this is more than other work of the same kind; 0 where it is less.
+    /// Excess of this over other work of the same kind; 0 where it is less.
     pub fn beyond(&self, other: &Work) -> Work {
         let less = |own: u64, other: u64| own.saturating_sub(other);
         let operations = |own: &Operations, done: &Operations| Operations {

@@ -4,7 +4,7 @@
 
 use crate::work::Real;
 
-/// What of a convex polygon lies where `distance` is not negative; empty if nothing does.
+/// The part of a convex polygon at which `distance` is not negative; empty if there is none.
 ///
 /// `towards(a, b, t)` is the corner t of the way from a to b. The corner on a cut edge is computed
 /// from the inner end, whichever way the edge is followed: polygons that share an edge share the

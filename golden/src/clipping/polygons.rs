@@ -18,7 +18,7 @@ struct Axis<T> {
     delta: T,
     first: T,
     last: T,
-    /// Whether the coordinate changes along the edge.
+    /// True if the coordinate changes along the edge.
     moves: bool,
     /// Parameter at which the edge meets the first border; minus infinity if it does not move.
     enter: T,

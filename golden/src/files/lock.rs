@@ -18,7 +18,7 @@ const PAUSE: Duration = Duration::from_millis(20);
 pub struct LockError {
     /// The lock file.
     pub file: PathBuf,
-    /// Why.
+    /// The cause.
     pub source: io::Error,
 }
 
@@ -32,7 +32,7 @@ impl Lock {
     /// Takes the lock that a file stands for, which is made if need be, with its folder.
     ///
     /// # Errors
-    /// Where the file cannot be made or locked, and if another has it for too long.
+    /// If the file cannot be made or locked, or another has it for too long.
     pub fn take(file: &Path) -> Result<Lock, LockError> {
         let at = |source| LockError { file: file.to_owned(), source };
         take(file, &Waiting::usual()).map_err(at)
@@ -42,7 +42,7 @@ impl Lock {
     /// locks everybody has it.
     ///
     /// # Errors
-    /// Where the folder cannot be opened, and if another has it for too long.
+    /// If the folder cannot be opened, or another has it for too long.
     pub fn of_folder(folder: &Path) -> Result<Lock, LockError> {
         let at = |source| LockError { file: folder.to_owned(), source };
         of_folder(folder, &Waiting::usual()).map_err(at)

@@ -29,7 +29,7 @@ use std::io;
 use std::os::unix::fs::FileTypeExt;
 use std::path::Path;
 
-/// What a path leads to, if neither to a file nor to a folder.
+/// Kind of a special file, with its article; none for files and folders.
 pub fn special(kind: FileType) -> Option<&'static str> {
     if kind.is_fifo() {
         Some("a pipe (FIFO)")
@@ -66,7 +66,7 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// What this thread brought to the disk, by the names that it had then.
+/// Names of the files and folders that this thread brought to the disk, as they were then.
 #[cfg(test)]
 mod synced {
     use super::scratch::is_temporary;

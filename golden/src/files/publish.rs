@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// older one is renamed to `NAME.older` for that moment, where a kill leaves it.
 ///
 /// # Errors
-/// Where the folder cannot be put there; it is then as it was before.
+/// If the folder cannot be put there; it is then as it was before.
 pub fn publish(finished: Scratch, folder: &Path) -> Result<(), WriteError> {
     put(finished, folder).map_err(|source| WriteError { file: folder.to_owned(), source })
 }
@@ -40,7 +40,7 @@ fn put(finished: Scratch, folder: &Path) -> io::Result<()> {
     super::sync_folder(parent)
 }
 
-/// Whether a file system has no such way of renaming.
+/// True if a file system has no such way of renaming.
 fn cannot(error: Errno) -> bool {
     matches!(error, Errno::INVAL | Errno::NOSYS | Errno::OPNOTSUPP)
 }

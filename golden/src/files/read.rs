@@ -7,13 +7,13 @@ use std::io::{self, Read};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 
-/// Why a file was not read.
+/// A file was not read.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot be read: {source}", printable_path(.file))]
 pub struct ReadError {
     /// The file.
     pub file: PathBuf,
-    /// Why.
+    /// The cause.
     pub source: io::Error,
 }
 
@@ -23,7 +23,7 @@ pub const OWN_LIMIT: u64 = 64 << 20;
 /// The text of one of the project's own files, of at most [`OWN_LIMIT`] bytes.
 ///
 /// # Errors
-/// Those of [`read`], and of bytes that are no UTF-8.
+/// The errors of [`read`], and one for bytes that are not UTF-8.
 pub fn read_own(file: &Path) -> io::Result<String> {
     String::from_utf8(bounded(file, OWN_LIMIT)?).map_err(io::Error::other)
 }

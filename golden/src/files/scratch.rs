@@ -52,7 +52,7 @@ impl Scratch {
         }
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
@@ -80,7 +80,7 @@ pub(super) fn file(parent: &Path) -> io::Result<(Temporary, NamedTempFile)> {
     }
 }
 
-/// Whether a name is that of something temporary.
+/// True if a name is that of something temporary.
 pub(super) fn is_temporary(name: &str) -> bool {
     name.starts_with(PREFIX) && name.ends_with(SUFFIX)
 }

@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Set {
     folder: PathBuf,
-    /// Where the folder is without symbolic links.
+    /// Path of the folder without symbolic links.
     place: PathBuf,
     scratch: Scratch,
     _tidy: Tidy,
@@ -35,7 +35,7 @@ impl Set {
     /// A set for a folder, which is made with those above it if need be.
     ///
     /// # Errors
-    /// Where neither beside the folder nor in it anything can be written.
+    /// If nothing can be written, neither beside the folder nor in it.
     pub fn new(folder: &Path) -> Result<Set, WriteError> {
         let folder = if folder == Path::new("") { Path::new(".") } else { folder };
         let tidy = Tidy::new(folder);
@@ -70,7 +70,7 @@ impl Set {
     /// are `stale`.
     ///
     /// # Errors
-    /// Where that cannot be done; the folder then has what it had, or nothing of either set.
+    /// If that cannot be done; the folder then has what it had, or nothing of either set.
     pub fn finish(self, main: &str, stale: impl Fn(&str) -> bool) -> Result<(), WriteError> {
         let mut names = Vec::new();
         for entry in fs::read_dir(self.path()).map_err(at(&self.folder))? {
@@ -167,7 +167,7 @@ impl Set {
     }
 }
 
-/// What became of the folder of a set.
+/// Outcome of the replacement of a set's folder as a whole.
 enum Replaced {
     /// There was none before.
     New,
@@ -194,7 +194,7 @@ fn beside(folder: &Path) -> Option<&Path> {
     (here.dev() == above.dev() && !is_working && !has_folders).then_some(parent)
 }
 
-/// What else is in a folder.
+/// Entries of a folder that are neither the set's own nor temporary.
 fn others(folder: &Path, is_own: &dyn Fn(&OsStr) -> bool) -> io::Result<Vec<DirEntry>> {
     let is_other = |entry: &DirEntry| {
         let name = entry.file_name();

@@ -1,4 +1,4 @@
-//! What is on the disk for a while only, for a process that is asked to end before it is done with it.
+//! Temporary files and folders, for a process that is asked to end before it is done with them.
 
 use std::fs;
 use std::io;

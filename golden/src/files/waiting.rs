@@ -19,7 +19,7 @@ pub fn on_wait(limit: fn() -> Duration, tell: fn(&str)) {
     let _ = TELL.set(tell);
 }
 
-/// How somebody is waited for.
+/// Time limits of a wait, and the receiver of the line about it.
 pub(super) struct Waiting<'a> {
     pub patience: Duration,
     pub limit: Duration,
@@ -40,7 +40,7 @@ impl Waiting<'_> {
     /// Waits by `within`, which says whether the wait was over in a time. `whom` says who is waited for and why.
     ///
     /// # Errors
-    /// Those of `within`, and [`io::ErrorKind::TimedOut`] at the limit.
+    /// The errors of `within`, and [`io::ErrorKind::TimedOut`] at the limit.
     pub fn wait(
         &self,
         mut within: impl FnMut(Duration) -> io::Result<bool>,

@@ -28,7 +28,7 @@ const LINKS: usize = 40;
 /// A device, pipe or socket, and the file that is standard output or error, is written to, not replaced.
 ///
 /// # Errors
-/// Where the file cannot be written; of a pipe that nobody reads, and of one that takes nothing for too long, see
+/// If the file cannot be written; for a pipe that nobody reads, or one that takes nothing for too long, see
 /// [`on_wait`](super::on_wait).
 pub fn write(file: &Path, content: &[u8]) -> Result<(), WriteError> {
     put(file, content).map_err(|source| WriteError { file: file.to_owned(), source })
@@ -51,7 +51,7 @@ pub fn replaced(file: &Path) -> Option<PathBuf> {
     }
 }
 
-/// What a name leads to.
+/// The destination that a name leads to.
 enum Target {
     /// Standard output.
     Output,
@@ -76,12 +76,12 @@ fn target(file: &Path) -> io::Result<Target> {
     })
 }
 
-/// Whether a file is the one that an open stream writes to.
+/// True if a file is the one that an open stream writes to.
 fn is(file: &Metadata, stream: impl AsFd) -> bool {
     rustix::fs::fstat(stream).is_ok_and(|s| (s.st_dev, s.st_ino) == (file.dev(), file.ino()))
 }
 
-/// Where a link leads whose end is not there yet.
+/// The path that a dangling link leads to.
 fn led_to(file: &Path) -> io::Result<PathBuf> {
     let mut file = file.to_owned();
     for _ in 0..LINKS {

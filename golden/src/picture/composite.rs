@@ -57,7 +57,7 @@ impl Composite {
         Composite::ALL.into_iter().find(|c| c.name() == name)
     }
 
-    /// Whether the views stand side by side, to be looked at without glasses.
+    /// True if the views stand side by side, to be looked at without glasses.
     pub fn is_side_by_side(self) -> bool {
         matches!(self, Composite::Parallel | Composite::Crossed | Composite::Triplet)
     }

@@ -13,9 +13,9 @@ use crate::frame::Frame;
 /// The pictures of the two eyes.
 #[derive(Clone, Copy, Debug)]
 pub struct Views<'a> {
-    /// What the left eye sees.
+    /// The left eye's view.
     pub left: &'a RgbImage,
-    /// What the right eye sees; of the same size.
+    /// The right eye's view; of the same size.
     pub right: &'a RgbImage,
 }
 

@@ -35,7 +35,7 @@ beat! {
 }
 
 beat! {
-    /// What of a secondary pixel is covered.
+    /// Coverage of a secondary pixel.
     pub struct CoveragePixel {
         /// covered samples
         mask: Mask,

@@ -99,7 +99,7 @@ pub struct Step {
 
 /// Beats that an [`EdgeInterpolator`] can take.
 pub trait Interpolant: Beat {
-    /// What comes out.
+    /// The beat that comes out.
     type Output: Beat;
     #[doc(hidden)]
     fn fields(&self) -> Step;
@@ -181,7 +181,7 @@ impl<B: Interpolant> EdgeInterpolator<B> {
         }
     }
 
-    /// What the beat taken last gives.
+    /// Output of the beat taken last.
     #[inline]
     pub(super) fn output(&self) -> B::Output {
         B::output(self.value, self.a, self.b, self.low, &self.formats)

@@ -6,7 +6,7 @@ use crate::config::{Config, Division};
 use crate::formats::*;
 
 beat! {
-    /// What the filter sees of a beat.
+    /// A beat, as the filter takes it.
     pub struct FilterBeat {
         /// the beat opens a secondary pixel
         first: bool,
@@ -91,8 +91,8 @@ fn shifted_sum<const N: usize>(a: u32, fraction: u32, exponents: [u32; N]) -> u3
     (sum + (1 << (fraction - 1))) >> fraction
 }
 
-/// What `n` values (1 to 29) are multiplied by instead of being divided by n: 2^-p + 2^-q for two
-/// terms (paper, equation 1), 2^-p + 2^-q + 2^-r for three, and the exact division's reciprocal.
+/// Factor that replaces the division by `n` (1 to 29): 2^-p + 2^-q for two terms (paper, equation
+/// 1), 2^-p + 2^-q + 2^-r for three, and the exact division's reciprocal.
 pub fn factor(division: Division, n: u32) -> f64 {
     let power = |exponent: u32| 1.0 / f64::from(1u32 << exponent);
     match division {

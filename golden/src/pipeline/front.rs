@@ -65,7 +65,7 @@ impl Front {
         }
     }
 
-    /// Whether a beat waits for the next one.
+    /// True if a beat waits for the next one.
     pub fn is_waiting(&self) -> bool {
         self.waiting.is_some()
     }

@@ -35,7 +35,7 @@ pub struct Hybrid {
     passing: Option<Eye>,
 }
 
-/// What every interpolator is told of a beat.
+/// Control fields of a beat, common to all interpolators.
 struct Movement {
     op: Op,
     save: bool,
@@ -106,7 +106,7 @@ impl Hybrid {
         }
     }
 
-    /// Whether a polygon or a beat was refused.
+    /// True if a polygon or a beat was refused.
     pub fn error(&self) -> bool {
         self.error
     }
@@ -338,8 +338,8 @@ impl Hybrid {
         }
     }
 
-    /// Whether a beat belongs to a polygon that concerns no unit but redirection; its eye. Where
-    /// nobody watches the units, such beats need not go through them: the next `LOAD` renews all
+    /// Eye of the polygon that a beat belongs to, if that polygon concerns no unit but redirection.
+    /// If nobody watches the units, such beats need not go through them: the next `LOAD` renews all
     /// they hold.
     #[inline]
     fn passes_by(&mut self, beat: &PrimaryBeat, setup: &Setup) -> Option<Eye> {

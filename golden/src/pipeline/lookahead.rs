@@ -2,9 +2,9 @@
 
 /// A beat that may be followed by another in the same secondary pixel.
 pub trait Lookahead: Sized {
-    /// Whether this beat opens a secondary pixel, so that the beat before it was an end.
+    /// True if this beat opens a secondary pixel, so that the beat before it was an end.
     fn opens_pixel(&self) -> bool;
-    /// Whether no beat follows in this polygon.
+    /// True if no beat follows in this polygon.
     fn is_last(&self) -> bool;
     /// Tells the beat whether it is the last in its pixel.
     fn set_end(&mut self, end: bool);

@@ -36,7 +36,7 @@ impl Minimal {
         }
     }
 
-    /// Whether a polygon or a beat was refused.
+    /// True if a polygon or a beat was refused.
     pub fn error(&self) -> bool {
         self.error
     }

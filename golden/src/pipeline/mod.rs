@@ -32,9 +32,9 @@ pub use streams::*;
 
 use crate::formats::Eye;
 
-/// What a system draws to: the frame buffers behind its output streams.
+/// Destination of a system's pixels: the frame buffers behind its output streams.
 pub trait Output {
-    /// What the frame buffers hold; every pixel written before counts.
+    /// Reads the frame buffers; every pixel written before counts.
     fn read(&mut self, request: &Request) -> Response;
     /// Takes a pixel from the left or the right output stream.
     fn write(&mut self, stream: Eye, pixel: &Pixel);

@@ -91,7 +91,7 @@ impl Unit {
 
 /// Sees every beat that a unit takes and gives.
 pub trait Observer {
-    /// Whether anything is done with what is seen; where not, models skip what nobody needs.
+    /// True if anything is done with the beats; if not, models skip what nobody needs.
     const ACTIVE: bool;
     /// A unit took a beat.
     fn input<B: Beat>(&mut self, unit: Unit, beat: &B);

@@ -4,7 +4,7 @@ use crate::beat;
 use crate::formats::SampleData;
 
 beat! {
-    /// What the sampler sees of a beat; the data is opaque to it.
+    /// A beat, as the sampler takes it; the data is opaque to it.
     pub struct SamplerBeat {
         /// the beat opens a secondary pixel
         first: bool,

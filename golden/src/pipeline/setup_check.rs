@@ -3,7 +3,7 @@
 use super::Setup;
 use crate::formats::*;
 
-/// Whether hardware must refuse to draw a polygon with this record. `lends`: the system has edge
+/// True if hardware must refuse to draw a polygon with this record. `lends`: the system has edge
 /// interpolators to lend.
 pub fn is_bad_setup(setup: &Setup, lends: bool, formats: &Formats) -> bool {
     let binocular = setup.mode.is_binocular();

@@ -13,7 +13,7 @@ pub struct Stereo {
     hybrid: Hybrid,
 }
 
-/// What the polygon port takes for a part of a polygon: one record of each of its streams.
+/// A part of a polygon at the polygon port: one record of each of its streams.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PartRecords {
     /// Stream `walk`.
@@ -35,7 +35,7 @@ impl Stereo {
         }
     }
 
-    /// Whether a polygon was refused.
+    /// True if a polygon was refused.
     pub fn error(&self) -> bool {
         self.hybrid.error()
     }

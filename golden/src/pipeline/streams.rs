@@ -4,7 +4,7 @@ use crate::beat;
 use crate::formats::*;
 use crate::interface::{Bits, Field, Kind};
 
-/// What a beat does to the secondary state.
+/// Effect of a beat on the secondary state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Op {
     /// First pixel of a polygon or of a part of it: state is loaded from the setup.
@@ -55,12 +55,12 @@ impl Mode {
         Mode(2 + primary as u8)
     }
 
-    /// Whether the code is one of the four.
+    /// True if the code is one of the four.
     pub fn is_legal(self) -> bool {
         self.0 < 4
     }
 
-    /// Whether a secondary is derived.
+    /// True if a secondary is derived.
     pub fn is_binocular(self) -> bool {
         self.0 & 2 != 0
     }
@@ -326,7 +326,7 @@ beat! {
 }
 
 beat! {
-    /// What the frame buffer held: stream `response`.
+    /// Content of the frame buffer: stream `response`.
     pub struct Response {
         /// background colour
         rgb: [u8; 3],

@@ -56,7 +56,7 @@ pub struct YInterpolator {
     row: SecondaryX,
 }
 
-/// What the y interpolator emits, with what [`Lookahead`] has to know of the beat.
+/// Output of the y interpolator, with the fields of the beat that [`Lookahead`] needs.
 #[derive(Clone, Copy, Debug)]
 pub struct YState {
     /// The pixel.

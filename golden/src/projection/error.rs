@@ -9,9 +9,9 @@ pub const COORDINATE_LIMIT: f64 = 1e9;
 pub struct RigError {
     /// Name of the value, as in rig files: `piecewise.partitions[1].near`.
     pub field: String,
-    /// What is allowed.
+    /// The allowed values.
     pub expected: String,
-    /// What it is.
+    /// The value found.
     pub found: f64,
 }
 
@@ -21,7 +21,7 @@ impl RigError {
         RigError { field: field.into(), expected: expected.into(), found }
     }
 
-    /// What was found, with an exponent where it would be long without.
+    /// The value found, with an exponent where it would be long without.
     pub fn found(&self) -> String {
         shown(self.found)
     }

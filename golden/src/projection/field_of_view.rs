@@ -1,6 +1,6 @@
 //! Horizontal fields of view of two eyes before a screen (NASA 1992, figure 5 and table I).
 
-/// How each view is cut at the sides.
+/// Clipping of each view at the sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clipping {
     /// As far to one side of the eye as the nearer edge of the screen is on the other: part of the
@@ -21,19 +21,19 @@ pub struct Screen {
     pub eye_distance: f64,
 }
 
-/// What the eyes see of a plane parallel to the screen, in degrees as seen from half-way between them.
+/// Angles at which the eyes see a plane parallel to the screen, in degrees as seen from half-way between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FieldOfView {
-    /// What one eye alone sees at the left.
+    /// Angle that one eye alone sees at the left.
     pub left: f64,
-    /// What both eyes see.
+    /// Angle that both eyes see; negative if there is a gap between their fields.
     pub stereo: f64,
-    /// What one eye alone sees at the right.
+    /// Angle that one eye alone sees at the right.
     pub right: f64,
 }
 
 impl FieldOfView {
-    /// What any eye sees, and what lies between: from the one end to the other.
+    /// Angle from one end to the other: all that any eye sees, and what lies between.
     pub fn total(&self) -> f64 {
         self.left + self.stereo + self.right
     }

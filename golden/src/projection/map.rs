@@ -19,8 +19,8 @@ impl DistanceMap {
     /// Perceived distances are those in the scene.
     pub const IDENTITY: DistanceMap = DistanceMap { slope: 1.0, intercept: 0.0 };
 
-    /// What is infinitely far is perceived at `max_distance` (infinite itself for one that does not
-    /// exist), what is at `screen_intercept` at the screen's distance (NASA 1992, appendix A).
+    /// The map by which infinity is perceived at `max_distance` (infinite itself if there is no limit) and
+    /// `screen_intercept` at the screen's distance (NASA 1992, appendix A).
     pub fn asymptotic(
         screen_intercept: f64,
         screen_distance: f64,
@@ -37,8 +37,8 @@ impl DistanceMap {
         DistanceMap { slope, intercept: 1.0 / max_distance - slope / far }
     }
 
-    /// Where a scene distance is perceived: d of d' (NASA 1992, the last equations of appendices A and B);
-    /// infinite distances are legal.
+    /// Perceived distance of a scene distance: d of d' (NASA 1992, the last equations of appendices A and B); infinite
+    /// distances are legal.
     pub fn perceived(&self, scene: f64) -> f64 {
         1.0 / (self.slope / scene + self.intercept)
     }
@@ -59,22 +59,20 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// How far the scene is moved before it is projected: to the right by this for the left eye, to
-    /// the left for the right eye. (IPD/2)·slope: POT of NASA 1992, appendix A, and LPOT of
-    /// appendix B; in the scene's unit.
+    /// Movement of the scene before it is projected: to the right by this for the left eye, to the left for the right
+    /// eye. (IPD/2)·slope: POT of NASA 1992, appendix A, and LPOT of appendix B; in the scene's unit.
     pub fn projection_offset(&self, map: &DistanceMap) -> f64 {
         self.eye_distance / 2.0 * map.slope
     }
 
-    /// How far the picture is moved after it is projected: to the right by this for the left eye,
-    /// to the left for the right eye. −(IPD/2)(1 − SD·intercept): VPT of NASA 1992, appendix A, and
-    /// LVPT of appendix B.
+    /// Movement of the picture after it is projected: to the right by this for the left eye, to the left for the right
+    /// eye. −(IPD/2)(1 − SD·intercept): VPT of NASA 1992, appendix A, and LVPT of appendix B.
     pub fn viewport_offset(&self, map: &DistanceMap) -> f64 {
         -(self.eye_distance / 2.0) * (1.0 - self.screen_distance * map.intercept)
     }
 
-    /// How far the right eye's image of a point perceived at this distance is to the right of the
-    /// left eye's on the screen: IPD(1 − SD/d) (NASA 1992, figure 4).
+    /// Distance on the screen from the left eye's image of a point perceived at this distance to the right eye's,
+    /// positive to the right: IPD(1 − SD/d) (NASA 1992, figure 4).
     pub fn disparity(&self, perceived: f64) -> f64 {
         self.eye_distance * (1.0 - self.screen_distance / perceived)
     }

@@ -10,12 +10,12 @@ use crate::formats::Eye;
 /// A matrix by rows, to be multiplied by row vectors from the left.
 pub type Matrix = [[f64; 4]; 4];
 
-/// What a projection matrix is made of.
+/// Parameters of a projection matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProjectionMatrix {
     /// Eyes and screen.
     pub viewer: Viewer,
-    /// Where the scene is perceived.
+    /// Map from distances in the scene to perceived distances.
     pub map: DistanceMap,
     /// NCP, the distance of the near plane in the scene.
     pub near: f64,

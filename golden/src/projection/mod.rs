@@ -67,7 +67,7 @@ impl Kind {
         Kind::NAMES[self as usize]
     }
 
-    /// What it does, in one line.
+    /// Its line in `wheatstone list`.
     pub fn description(self) -> &'static str {
         match self {
             Kind::TwoCentres => "each eye a centre of projection: the screen is a window",
@@ -124,18 +124,18 @@ pub struct Range {
     pub near: f64,
     /// Farthest scene distance.
     pub far: f64,
-    /// Where it is perceived.
+    /// Map from its distances to perceived distances.
     pub map: DistanceMap,
 }
 
 impl Range {
-    /// Where its near and its far end are perceived.
+    /// Perceived distances of its near and its far end.
     pub fn perceived(&self) -> [f64; 2] {
         [self.near, self.far].map(|distance| self.map.perceived(distance))
     }
 
-    /// Whether another range, which is farther away, begins to be perceived nearer than this one
-    /// ends: what recedes from the one to the other seems to approach.
+    /// True if another range, which is farther away, begins to be perceived nearer than this one ends: a point that
+    /// recedes from the one to the other seems to approach.
     pub fn runs_back_to(&self, farther: &Range) -> bool {
         farther.perceived()[0] < self.perceived()[1] * (1.0 - 1e-9)
     }

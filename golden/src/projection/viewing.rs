@@ -1,6 +1,6 @@
 //! The eyes and the screen of a rig.
 
-/// What a projection takes from a rig.
+/// Values of a rig that a projection needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewing {
     /// Distance between the eyes.

@@ -46,7 +46,7 @@ impl Scene {
     }
 }
 
-/// What the polygons of a mesh have in common.
+/// Properties that the polygons of a mesh have in common.
 #[derive(Clone, Copy)]
 struct Surface {
     id: u32,
@@ -71,13 +71,13 @@ impl Partition {
         }
     }
 
-    /// Whether anything of a polygon lies in it.
+    /// True if any part of a polygon lies in it.
     fn reaches(&self, corners: &[Corner]) -> bool {
         self.lens.reaches(extent(corners.iter().map(|c| c.position[2])))
     }
 
-    /// What lies in the half spaces. Rounding puts no corner before the near plane, where the
-    /// projection would turn over.
+    /// The part of a polygon in the half spaces. Rounding puts no corner before the near plane, where the projection
+    /// would turn over.
     fn clip(&self, corners: Vec<Corner>, spaces: &[HalfSpace]) -> Vec<Corner> {
         let [near, far] = self.lens.depth_range();
         let mut kept = clip_all(corners, spaces);
@@ -100,7 +100,7 @@ pub(super) struct Builder<'a> {
     band: [[i64; 2]; 2],
     /// Size of a view in subpixels.
     size: [i64; 2],
-    /// Whether each texture of the scene is translucent.
+    /// True for each texture of the scene that is translucent.
     translucent_textures: Vec<bool>,
     opaque: Vec<Polygon>,
     translucent: Vec<Polygon>,
@@ -375,7 +375,7 @@ impl<'a> Builder<'a> {
         if opaque { &mut self.opaque } else { &mut self.translucent }.push(polygon);
     }
 
-    /// Whether eyes see no area of a polygon; counts it if so.
+    /// True if no eye sees an area of a polygon, which is then counted.
     fn has_no_area(
         &mut self,
         corners: &[Corner],
@@ -409,7 +409,7 @@ impl<'a> Builder<'a> {
         true
     }
 
-    /// Whether a polygon lies beside a view.
+    /// True if a polygon lies beside a view.
     fn is_outside(&self, points: &[Snapped], eye: Eye) -> bool {
         let beside = |place: fn(&Snapped) -> [i64; 2], size: i64| {
             points.iter().all(|p| place(p)[eye as usize] <= 0)
@@ -446,7 +446,7 @@ fn convex_pieces(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
     triangles.iter().map(|t| t.iter().map(|&k| all[k]).collect()).collect()
 }
 
-/// Whether three points lie on a line, or so nearly that the rest is rounding.
+/// True if three points lie on a line, or so nearly that the rest is rounding.
 fn is_line(a: Vec3, b: Vec3, c: Vec3) -> bool {
     let square = |v: Vec3| dot(v, v);
     let longest = [sub(b, a), sub(c, a), sub(c, b)].map(square).into_iter().fold(0.0, f64::max);
@@ -466,7 +466,7 @@ fn doubled_area(points: &[Snapped], eye: Eye) -> i64 {
         .sum()
 }
 
-/// Whether no corner lies on the wrong side of any edge.
+/// True if no corner lies on the wrong side of any edge.
 fn is_convex(points: &[Snapped], eye: Eye) -> bool {
     let sign = doubled_area(points, eye).signum();
     (0..points.len()).all(|k| {

@@ -35,7 +35,7 @@ pub struct Camera {
     lenses: Vec<Lens>,
 }
 
-/// How a camera projects what lies within a range of distances.
+/// Projection of points within a range of distances.
 #[derive(Clone, Copy, Debug)]
 pub struct Lens {
     order: Order,
@@ -45,7 +45,7 @@ pub struct Lens {
     screen_distance: f64,
     /// Components of the vector from the left to the right eye.
     separation: [f64; 2],
-    /// What the left eye's scene is moved by before, and its picture after projecting.
+    /// Offsets of the left eye: of the scene before projecting, and of the picture after it.
     before: [f64; 2],
     after: [f64; 2],
     /// z of the range's ends.
@@ -85,7 +85,7 @@ impl Camera {
         found.unwrap_or(&self.lenses[self.lenses.len() - 1])
     }
 
-    /// Whether what reaches from one z to another, and is at least partly a lens's, is wholly so.
+    /// True if the lenses cover the whole of a range of z, given that they cover a part of it.
     pub fn covers(&self, [least, most]: [f64; 2]) -> bool {
         let mut reached = least;
         for [near, far] in self.lenses.iter().map(|lens| lens.range) {
@@ -118,7 +118,7 @@ impl Camera {
         1.0 + p[2] / self.viewing_distance
     }
 
-    /// Whether both eyes see the same rows, so that polygons may be cut in common there.
+    /// True if both eyes see the same rows, so that polygons may be cut in common there.
     pub fn is_level(&self) -> bool {
         self.level
     }
@@ -198,9 +198,8 @@ impl Lens {
         z > self.range[1] || (self.joined && z == self.range[1])
     }
 
-    /// Whether anything of what reaches from one z to another is this lens's. What only touches an
-    /// end is not, and what lies flat where two lenses meet is the farther one's, so that nothing is
-    /// drawn twice.
+    /// True if a part of an object from one z to another is this lens's. An object that only touches an end has no part
+    /// here, and a flat one where two lenses meet is the farther one's, so that nothing is drawn twice.
     pub fn reaches(&self, [least, most]: [f64; 2]) -> bool {
         let [near, far] = self.range;
         if least == most {

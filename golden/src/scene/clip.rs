@@ -26,12 +26,12 @@ impl Corner {
     }
 }
 
-/// What of a convex polygon lies in a half space; empty if nothing does.
+/// The part of a convex polygon in a half space; empty if there is none.
 pub fn clip(polygon: &[Corner], space: &HalfSpace) -> Vec<Corner> {
     half_space::cut(polygon, |corner| space.at(corner.position), Corner::towards)
 }
 
-/// What of a convex polygon lies in all of the half spaces.
+/// The part of a convex polygon in all of the half spaces.
 pub fn clip_all(mut polygon: Vec<Corner>, spaces: &[HalfSpace]) -> Vec<Corner> {
     for space in spaces {
         if polygon.iter().any(|c| space.at(c.position) < 0.0) {

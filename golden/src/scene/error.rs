@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, and where.
+//! Errors of scenes, and their places.
 
 use super::locate::Locator;
 use crate::files::{self, ReadError};
@@ -29,11 +29,11 @@ pub struct InputError {
     pub file: PathBuf,
     /// Line in the file, from 1, where it is known.
     pub line: Option<usize>,
-    /// What the value is, in the file's own words.
+    /// The value's name, in the file's own words.
     pub field: String,
-    /// What is allowed.
+    /// The allowed values.
     pub expected: String,
-    /// What is there.
+    /// The value found.
     pub found: String,
 }
 
@@ -72,7 +72,7 @@ impl RigError {
     }
 }
 
-/// Why there is no scene, or nothing to draw of it.
+/// The reason why there is no scene, or nothing to draw of it.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// A value in a file is wrong.
@@ -83,13 +83,13 @@ pub enum SceneError {
     Read {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The cause.
         source: std::io::Error,
     },
     /// Neither a built-in scene nor a file of a known kind.
     #[error("scene {}: expected a file ending in .obj, .json, .png, .txt or .grid, or one of: {}", printable(.name), .builtin.join(", "))]
     Unknown {
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
         /// Names of the built-in scenes.
         builtin: Vec<&'static str>,
@@ -117,7 +117,7 @@ pub enum SceneError {
         mesh: usize,
         /// The part that is wrong.
         field: &'static str,
-        /// What is wrong with it.
+        /// The fault.
         problem: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Where a scene lies before the eyes, and what of it its projection leaves out.
+//! Distances of a scene from the eyes, and the polygons that its projection leaves out.
 
 use super::vector::extent;
 use super::{Camera, Scene, SceneError};
@@ -12,14 +12,14 @@ pub struct Extent {
     pub distances: Option<[f64; 2]>,
     /// Triangles and faces.
     pub polygons: usize,
-    /// Those that lie in no range of distances that is drawn.
+    /// Triangles and faces that lie in no range of distances that is drawn.
     pub undrawn: usize,
-    /// Those of which a part lies in none.
+    /// Triangles and faces of which a part lies in none.
     pub partly: usize,
 }
 
 impl Scene {
-    /// Where the scene lies, seen with its rig. Fails if either contradicts itself.
+    /// The distances of the scene, seen with its rig. Fails if either contradicts itself.
     pub fn extent(&self) -> Result<Extent, SceneError> {
         self.check()?;
         // The snapping of this camera is not used.

@@ -1,4 +1,4 @@
-//! What drawing receives of a scene, and the choices in making it.
+//! Geometry of a scene, as drawing receives it, and the choices in making it.
 
 use crate::formats::Rgba;
 use crate::frame::Scissor;
@@ -33,7 +33,7 @@ impl Default for Options {
     }
 }
 
-/// What became of the triangles and faces of a scene.
+/// Fates of the triangles and faces of a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Triangles in the meshes.
@@ -73,7 +73,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// How many are left out for which reason, and what helps.
+    /// Number of polygons left out for each reason, and what helps against it.
     fn reasons(&self) -> [(usize, String, &'static str); 9] {
         const MOVE: &str = "move it, or change near and far, with a rig file";
         let empty = match self.first_empty {
@@ -93,8 +93,8 @@ impl Counts {
         ]
     }
 
-    /// Why nothing is drawn, and what helps against the reason that most polygons have; none if
-    /// something is.
+    /// The reason why nothing is drawn, and what helps against the reason that most polygons have; none if something
+    /// is.
     pub fn nothing(&self) -> Option<String> {
         if self.polygons > 0 {
             return None;
@@ -110,7 +110,7 @@ impl Counts {
 }
 
 impl fmt::Display for Counts {
-    /// What is not drawn, and why; nothing where all is.
+    /// The numbers of polygons that are not drawn, with the reasons; empty if all are.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts: Vec<String> = Vec::new();
         let half = (self.half_culled, "culled for one eye".to_owned(), "");
@@ -139,6 +139,6 @@ pub struct Geometry {
     pub textures: Vec<Texture>,
     /// Columns of each view that are drawn.
     pub scissor: Scissor,
-    /// Where the triangles went.
+    /// Fates of the triangles and faces.
     pub counts: Counts,
 }

@@ -145,7 +145,7 @@ impl HeightGrid {
     }
 }
 
-/// What a field is put into: [`physical_rig`] and one white light.
+/// The scene that a field is put into: [`physical_rig`] and one white light.
 pub fn empty_scene(width: u32, height: u32) -> Scene {
     let source = Source::Direction([-3.0, 4.0, -2.0]);
     let light = Light { source, colour: [1.0; 3] };
@@ -216,7 +216,7 @@ pub fn atoms() -> HeightGrid {
     HeightGrid { columns: ATOMS, heights: (0..ATOMS * ATOMS).map(height).collect() }
 }
 
-/// Whether files with this ending hold height grids.
+/// True if files with this ending hold height grids.
 pub fn is_grid(extension: &str) -> bool {
     ["png", "txt", "grid"].contains(&extension)
 }

@@ -28,7 +28,7 @@ use serde::{Deserialize, Deserializer};
 use std::fmt;
 use std::path::Path;
 
-/// What the field `format` holds.
+/// Content of the field `format`.
 pub const FORMAT: &str = "stereo-scene/1";
 
 /// A colour channel: an integer from 0 to 255.
@@ -97,7 +97,7 @@ pub(super) fn parse<T: DeserializeOwned>(file: &Path, text: &str) -> Result<T, I
     }
 }
 
-/// What serde_json says, in our form.
+/// An error of serde_json, in our form.
 fn broken(file: &Path, error: &serde_json::Error, path: &str) -> InputError {
     let message = error.to_string();
     // The line is said in front.
@@ -200,7 +200,7 @@ fn check_format(file: &Path, text: &str) -> Result<(), InputError> {
     Ok(())
 }
 
-/// What the types do not say.
+/// Checks that the types do not make.
 fn check(content: &SceneFile, rig: &Rig, file: &Path, text: &str) -> Result<(), InputError> {
     let wrong = |field: &str, index: Option<usize>, expected: String, found: String| {
         let line = Locator::new(text).line(&[field], index);

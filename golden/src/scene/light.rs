@@ -13,7 +13,7 @@
 
 use super::vector::{add, dot, scale, sub, unit, Vec3};
 
-/// How a surface answers to light.
+/// Reflection and emission of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Base colour of meshes that have none of their own, 0 to 1.
@@ -47,7 +47,7 @@ impl Default for Material {
     }
 }
 
-/// Where light comes from.
+/// Origin of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
     /// From infinitely far in this direction.
@@ -59,7 +59,7 @@ pub enum Source {
 /// A light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// Where it is.
+    /// Its direction or position.
     pub source: Source,
     /// Its colour, 1 for white.
     pub colour: Vec3,
@@ -94,8 +94,8 @@ pub struct Panel {
     pub colour: Vec3,
 }
 
-/// What polished surfaces reflect: a sky, a horizon and a ground that blend softly, and bright
-/// panels. It is infinitely far away.
+/// Surroundings that polished surfaces reflect: a sky, a horizon and a ground that blend softly, and bright panels.
+/// They are infinitely far away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
     /// Straight up.

@@ -1,4 +1,4 @@
-//! Where in a JSON text a value stands.
+//! Lines of values in a JSON text.
 
 /// Finds values by their paths. The text is valid JSON.
 pub struct Locator<'a> {

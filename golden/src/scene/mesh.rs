@@ -55,7 +55,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// How many ids the triangles take; those of the faces follow.
+    /// Number of ids that the triangles take; those of the faces follow.
     pub fn triangle_id_count(&self) -> usize {
         match self.triangle_ids.iter().max() {
             Some(&largest) => largest as usize + 1,
@@ -63,7 +63,7 @@ impl Mesh {
         }
     }
 
-    /// How many ids the mesh takes.
+    /// Number of ids that the mesh takes.
     pub fn id_count(&self) -> usize {
         self.triangle_id_count() + self.faces.len()
     }

@@ -65,7 +65,7 @@ pub struct Scene {
     pub background: [u8; 3],
     /// Light; without it meshes show their colours as they are.
     pub lighting: Option<Lighting>,
-    /// What polished surfaces reflect.
+    /// Surroundings that polished surfaces reflect.
     pub environment: Environment,
     /// Materials of the meshes.
     pub materials: Vec<Material>,
@@ -73,7 +73,7 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// The meshes. Ids count their polygons in this order, triangles before faces in each.
     pub meshes: Vec<Mesh>,
-    /// What of its files was not followed.
+    /// Statements of its files that were not followed.
     pub warnings: Warnings,
 }
 

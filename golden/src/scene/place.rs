@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer};
 /// Longest side of a placed mesh, in smaller sides of the screen, where nothing else is said.
 const FIT: f64 = 0.8;
 
-/// How a mesh or a height field is placed.
+/// Orientation, size and position of a mesh or a height field.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Placement {

@@ -13,7 +13,7 @@ pub(super) fn side(eye: Eye) -> f64 {
     }
 }
 
-/// Where the eyes are and how large the screen is; lengths are in the scene's own unit.
+/// Positions of the eyes and size of the screen; lengths are in the scene's own unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
     /// Pixels to a unit of length on the screen, the plane z = 0.
@@ -29,7 +29,7 @@ pub struct Rig {
     /// Tilt of the head in degrees: how far the right eye is turned up about the middle of the
     /// head. The screen stays upright.
     pub head_tilt: f64,
-    /// How the scene is mapped to the screen.
+    /// Map from the scene to the screen.
     pub projection: Projection,
 }
 
@@ -62,7 +62,7 @@ impl Rig {
         self.far.or_else(projected).unwrap_or(self.viewing_distance * 100.0)
     }
 
-    /// What its projection takes of it.
+    /// The values that its projection needs.
     fn viewing(&self) -> Viewing {
         Viewing {
             eye_separation: self.eye_separation,

@@ -68,7 +68,7 @@ impl<'a> Shading<'a> {
         self.lit(Point { position, normal, base })
     }
 
-    /// What lights the mesh.
+    /// The lights on the mesh; none on lines.
     fn light(&self) -> Option<&'a Lighting> {
         self.scene.lighting.as_ref().filter(|_| !self.mesh.lines)
     }

@@ -1,4 +1,4 @@
-//! What was not drawn as the files of a scene say, and where.
+//! Statements of scene files that were not followed, and their places.
 
 use crate::text::{printable, printable_path, printable_within};
 use std::fmt;
@@ -18,7 +18,7 @@ pub struct Warning {
     pub line: usize,
     /// The statement as it stands there, cut short.
     pub statement: String,
-    /// What is wrong with it, and what was done instead.
+    /// The fault, and what was done instead.
     pub problem: &'static str,
     /// More about this one; may be empty.
     pub detail: String,
@@ -77,7 +77,7 @@ impl Warnings {
         }
     }
 
-    /// How many there are.
+    /// Number of warnings.
     pub fn count(&self) -> usize {
         self.kinds.iter().map(|kind| kind.first.len() + kind.more).sum()
     }

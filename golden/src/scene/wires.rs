@@ -19,7 +19,7 @@ use std::collections::HashMap;
 /// Greatest thickness of a line, in pixels.
 pub const THICKEST: f64 = 2.0;
 
-/// What is added to the thickness of lines that must be thicker than a pixel, in pixels.
+/// Thickness added to lines that must be thicker than a pixel, in pixels.
 const SLACK: f64 = 1.0 / 16.0;
 
 /// A straight line between two points.
@@ -51,7 +51,7 @@ pub fn mesh(lines: &[Line], camera: &Camera) -> Mesh {
 }
 
 impl Line {
-    /// What of the line is a lens's.
+    /// The part of the line that is a lens's.
     fn within(&self, lens: &Lens) -> Option<Line> {
         if !lens.reaches(extent(self.ends.iter().map(|p| p[2]))) {
             return None;
@@ -147,7 +147,7 @@ struct Edge {
     line: Line,
     /// The polygon that it was found at first.
     polygon: u32,
-    /// That polygon has it twice: it lies between two of its triangles.
+    /// The polygon has it twice: it lies between two of its triangles.
     inner: bool,
     /// Another polygon has it too.
     shared: bool,

@@ -44,7 +44,7 @@ impl Outline {
         turns.sum()
     }
 
-    /// Whether every corner turns the same way, or not at all, and the outline goes round once.
+    /// True if every corner turns the same way, or not at all, and the outline goes round once.
     pub fn is_convex(&self) -> bool {
         let points = self.points();
         let sign = self.doubled_area().signum();
@@ -102,8 +102,8 @@ impl Outline {
     }
 }
 
-/// How far the visited pixels of a row reach, from the span [xl, xr] between its edges on the centre
-/// line, with anti-aliasing the span of the band of samples.
+/// Extent of the visited pixels of a row, from the span [xl, xr] between its edges on the centre line, with
+/// anti-aliasing the span of the band of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// Covered centres only.
@@ -155,11 +155,11 @@ impl Edge {
         self.low >> (formats.subpixel_bits - 3)
     }
 
-    /// What E' is below up to the pixel that a row begins with, for a left edge (a > 0), and from the
-    /// pixel that it ends with, for a right one. With x where the edge crosses the row's band of
-    /// samples that is `reach.widening` pixels beyond floor(x - 1/2) or ceil(x - 1/2), or the next one
-    /// inside, if the edge is more than 1 - `reach.spared`/256 pixels from its centre; and at least all
-    /// that is covered. So a traversal that has E' needs no other knowledge of its span.
+    /// Exclusive upper bound of E' up to the pixel that a row begins with, for a left edge (a > 0), and from the pixel
+    /// that it ends with, for a right one. With x where the edge crosses the row's band of samples that is
+    /// `reach.widening` pixels beyond floor(x - 1/2) or ceil(x - 1/2), or the next one inside, if the edge is more than
+    /// 1 - `reach.spared`/256 pixels from its centre; and at least all that is covered. So a traversal that has E'
+    /// needs no other knowledge of its span.
     pub(super) fn span_bound(&self, reach: Reach, formats: &Formats) -> i64 {
         let Reach::Extended { widening, spared } = reach else { return self.a.abs() };
         let top_left = self.a > 0 || (self.a == 0 && self.b > 0);

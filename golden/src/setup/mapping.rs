@@ -66,12 +66,12 @@ impl Map {
         }
     }
 
-    /// Whether 0 < G1 <= 1, and the secondary y moves by at most one pixel a step.
+    /// True if 0 < G1 <= 1, and the secondary y moves by at most one pixel a step.
     pub fn is_monotone(&self) -> bool {
         0 < self.x.scale && self.x.scale <= self.det && self.y.scale.abs() <= self.det
     }
 
-    /// Whether more than 29 primary pixels may fall into one secondary pixel.
+    /// True if more than 29 primary pixels may fall into one secondary pixel.
     pub fn exceeds_filter(&self) -> bool {
         self.x.scale * i128::from(FILTER_LIMIT) < self.det
     }
@@ -103,16 +103,15 @@ impl Map {
         self.row(&self.y, movement)
     }
 
-    /// Whether what a movement of the row start does to the secondary fits the row registers.
+    /// True if the secondary's movement for a movement of the row start fits the row registers.
     pub fn allows(&self, movement: i64, formats: &Formats) -> bool {
         SecondaryX::fits(self.row_shear(movement), formats)
             && SecondaryX::fits(self.row_rise(movement), formats)
     }
 
-    /// How much of a pixel's width, in 256ths, may lie between its centre and the edge inside it
-    /// without a secondary pixel being found on it alone, for a polygon of so many `rows` and `columns`
-    /// (docs/theory.md): 1/2 less the error of the register, in secondary pixels. With a tilted head
-    /// a secondary pixel ends with its row too: nothing.
+    /// Part of a pixel's width, in 256ths, that may lie between its centre and the edge inside it without a secondary
+    /// pixel being found on it alone, for a polygon of so many `rows` and `columns` (docs/theory.md): 1/2 less the
+    /// error of the register, in secondary pixels. With a tilted head a secondary pixel ends with its row too: nothing.
     pub fn spared(&self, rows: u64, columns: u64) -> i64 {
         if self.y.scale != 0 {
             return 0;

@@ -1,4 +1,4 @@
-//! How a polygon is drawn: derived, monocular, or not at all.
+//! Choice of how a polygon is drawn: derived, monocular, or not at all.
 
 use super::edge::Outline;
 use super::linear::{Linear, Plane};
@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 /// changes, the slot queue may have to wait for the polygon before.
 const LEAST_SAVING: u64 = 2;
 
-/// What to do about highlights that the eyes see differently (paper, section 5.5).
+/// Treatment of highlights that the eyes see differently (paper, section 5.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Specular {
     /// The secondary shows the primary's highlight.
@@ -83,7 +83,7 @@ impl Options {
     }
 }
 
-/// Why a polygon is drawn monocular.
+/// The reason why a polygon is drawn monocular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
     /// It faces, or is to be drawn for, one eye only.
@@ -197,8 +197,8 @@ impl Attributes {
         }
     }
 
-    /// Whether a colour or depth may leave its register ([`GUARD_BITS`]) within `reach` pixels of
-    /// the polygon. Alpha is always looked at.
+    /// True if a colour or depth may leave its register ([`GUARD_BITS`]) within `reach` pixels of
+    /// the polygon. Alpha is always checked.
     pub(super) fn exceeds(&self, reach: i64, colour_matters: bool, depth_matters: bool) -> bool {
         let steep = |linear: &Linear, integer_bits: u32| {
             let limit = 1i128 << (integer_bits + GUARD_BITS - 2 + FRACTION_BITS);
@@ -231,14 +231,14 @@ pub struct Derived {
     pub average: bool,
 }
 
-/// How a polygon is drawn.
+/// The way in which a polygon is drawn.
 #[derive(Clone, Debug)]
 pub enum Plan {
     /// It covers nothing: no area, or outside the windows.
     Nothing,
     /// Drawn by the primary pipeline for each of these eyes.
     Monocular {
-        /// Why.
+        /// The reason.
         reason: Reason,
         /// For which eyes it has an area and is wanted.
         eyes: [bool; 2],

@@ -1,4 +1,4 @@
-//! What setup is given: projected, snapped vertices.
+//! Input of setup: projected, snapped vertices.
 
 use crate::formats::{Eye, Rgba};
 use alloc::vec::Vec;
@@ -61,7 +61,7 @@ pub enum Eyes {
 }
 
 impl Eyes {
-    /// Whether the eye is in the set.
+    /// True if the eye is in the set.
     pub fn contains(self, eye: Eye) -> bool {
         match self {
             Eyes::Both => true,

@@ -8,14 +8,14 @@ use super::span::{parts, Part, Row, Spans, View};
 use crate::formats::*;
 use crate::pipeline::{Planes, Walk};
 
-/// What is common to all parts of a polygon in the view that the primary pipeline draws.
+/// Registers common to all parts of a polygon in the view that the primary pipeline draws.
 #[derive(Clone, Debug)]
 pub struct PrimaryRegisters {
     /// The polygon in that view.
     pub view: View,
     /// Which pixels are visited.
     pub spans: Spans,
-    /// Where they go on the display.
+    /// Map from the pixels to the display.
     pub placement: Placement,
     attributes: Attributes,
     steep: bool,

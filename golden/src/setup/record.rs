@@ -8,7 +8,7 @@ use super::span::Part;
 use crate::formats::*;
 use crate::pipeline::{Edges, Mode, Setup};
 
-/// What is common to all parts of a derived polygon, or of one that borrows the edges.
+/// Registers common to all parts of a derived polygon, or of one that borrows the edges.
 #[derive(Clone, Debug)]
 pub struct Registers {
     setup: Setup,
@@ -166,7 +166,7 @@ impl EdgeRegisters {
     }
 }
 
-/// Where a view's pixels go on the display.
+/// Map from a view's pixels to the display.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placement {
     base: i64,

@@ -58,13 +58,13 @@ impl View {
         &self.edges[..self.count]
     }
 
-    /// Whether no corner lies outside columns 0 to width - 1.
+    /// True if no corner lies outside columns 0 to width - 1.
     pub fn is_within(&self, width: u32) -> bool {
         let right = i64::from(width) << self.formats.subpixel_bits;
         self.bounds[0][0] >= 0 && self.bounds[1][0] <= right
     }
 
-    /// Whether no corner lies outside rows 0 to height - 1.
+    /// True if no corner lies outside rows 0 to height - 1.
     pub fn has_rows_within(&self, height: u32) -> bool {
         let bottom = i64::from(height) << self.formats.subpixel_bits;
         self.bounds[0][1] >= 0 && self.bounds[1][1] <= bottom
@@ -187,7 +187,7 @@ impl View {
 /// Which pixels of its rows a polygon visits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spans {
-    /// How far rows reach.
+    /// Extent of the rows.
     pub reach: Reach,
     /// Columns that no row passes: first and last.
     pub limits: [i64; 2],
@@ -196,7 +196,7 @@ pub struct Spans {
 }
 
 impl Spans {
-    /// What an edge function E' is below on the pixels at the end of a span and beyond.
+    /// Exclusive upper bound of an edge function E' on the pixels at the end of a span and beyond.
     pub fn bound(&self, edge: &Edge, formats: &Formats) -> i64 {
         edge.span_bound(self.reach, formats)
     }

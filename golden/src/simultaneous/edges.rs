@@ -65,8 +65,8 @@ impl<const VIEWS: usize, const VALUES: usize> Edge<VIEWS, VALUES> {
     }
 }
 
-/// Where a row of a view is inside: from the first column to before the second, with the values of
-/// the edges there, 16 fraction bits, half a unit added.
+/// Inside of a row of a view: from the first column to before the second, with the values of the edges there, 16
+/// fraction bits, half a unit added.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span<'a, const VALUES: usize> {
     pub view: usize,

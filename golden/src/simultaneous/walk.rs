@@ -31,16 +31,16 @@ impl Divisor {
     }
 }
 
-/// Where an edge crosses the centre lines of rows in one view.
+/// Crossings of an edge with the centre lines of rows in one view.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk {
     /// x in subpixels, rounded up.
     x: i32,
-    /// What this adds to x, times the rise of the edge: from 0 to the rise less 1.
+    /// Rounding error of x, times the rise of the edge: from 0 to the rise less 1.
     excess: i32,
     /// Subpixels a row, rounded down.
     step: i32,
-    /// What this leaves, times the rise.
+    /// Remainder of the step, times the rise.
     rest: i32,
     rise: i32,
 }

@@ -1,4 +1,4 @@
-//! How far a pixel of one eye's view is from where the other eye sees it, as a function of depth.
+//! Disparity: offset from a pixel of one eye's view to its place in the other's, as a function of depth.
 //!
 //! Every projection shows a point at ppu·(F·(p ± P)/w ± V), + for the left eye, w its distance from
 //! the plane of the eyes and P and V along the line of the eyes, in each partition their own
@@ -19,7 +19,7 @@ const FRACTION: u32 = 40;
 pub struct Disparity {
     /// Of each partition, the nearest first.
     stretches: Vec<Stretch>,
-    /// Whether both eyes see every point in the same row.
+    /// True if both eyes see every point in the same row.
     level: bool,
     ordered: bool,
 }
@@ -112,15 +112,15 @@ impl Disparity {
         self.stretch(depth).axes.map(|axis| axis.rounded(depth))
     }
 
-    /// Whether of two pixels of a row that meet in the other view the nearer one comes from the
-    /// side that [`other_eye`](super::warping::other_eye) scans last: the head is upright, and there
-    /// are no partitions, between which disparity may jump.
+    /// True if of two pixels of a row that meet in the other view the nearer one comes from the side that
+    /// [`other_eye`](super::warping::other_eye) scans last: the head is upright, and there are no partitions, between
+    /// which disparity may jump.
     pub fn is_ordered(&self) -> bool {
         self.ordered
     }
 
-    /// What moving a pixel at a depth takes: choosing the partition, the disparity, the sum with
-    /// the place and a look at the ends of the window, for each direction that pixels move in.
+    /// Operations to move a pixel at a depth: choosing the partition, the disparity, the sum with the place and a look
+    /// at the ends of the window, for each direction that pixels move in.
     #[inline]
     pub fn operations(&self, depth: u32) -> Operations {
         let directions = if self.level { 1 } else { 2 };

@@ -29,7 +29,7 @@ pub(super) struct Edge<const EYES: usize> {
     slope: [i64; EYES],
 }
 
-/// Where an edge is on its first row, for what is interpolated along it.
+/// Position of an edge on its first row, for values interpolated along it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Along<T> {
     /// Part of the way from the upper to the lower corner.

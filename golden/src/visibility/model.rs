@@ -46,7 +46,7 @@ impl Model {
         self.first.len() - 1
     }
 
-    /// Whether there is nothing to draw.
+    /// True if there is nothing to draw.
     pub fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
@@ -110,7 +110,7 @@ impl Model {
     }
 }
 
-/// Whether a polygon turns the same way at every corner and is planar but for rounding.
+/// True if a polygon turns the same way at every corner and is planar but for rounding.
 fn is_flat_and_convex(corners: &[Vec3]) -> bool {
     let count = corners.len();
     let at = |k: usize| corners[k % count];

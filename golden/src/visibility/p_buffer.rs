@@ -7,7 +7,7 @@
 //! 3. The next view, the other eye's or that of a viewer who has moved, is cleared, and the flagged
 //!    polygons alone go through the pipeline.
 //!
-//! What the next view shows wrongly is exactly what was hidden in the first one.
+//! The next view is wrong exactly where it should show a polygon that was hidden in the first one.
 
 use super::model::Model;
 use super::z_buffer::ZBuffer;
@@ -54,7 +54,7 @@ impl Visible {
         self.ids.sort_unstable();
     }
 
-    /// Whether a polygon is visible.
+    /// True if a polygon is visible.
     pub fn contains(&self, id: u32) -> bool {
         self.flags.get(id as usize).is_some_and(|&flag| flag)
     }

@@ -18,7 +18,7 @@ use crate::setup::Vertex;
 use crate::work::{Meter, Real};
 use thiserror::Error;
 
-/// Why a scene is not for this renderer.
+/// The reason why a scene is not for this renderer.
 #[derive(Debug, Error)]
 pub enum RendererError {
     /// The eyes are not two centres of projection.
@@ -59,7 +59,7 @@ pub struct Model {
     formats: Formats,
 }
 
-/// What the renderer makes.
+/// Output of the renderer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Views<const EYES: usize> {
     /// The triangle that each pixel shows.
@@ -235,7 +235,7 @@ impl Model {
     }
 }
 
-/// Whether an eye sees a triangle counter-clockwise; y is downward.
+/// True if an eye sees a triangle counter-clockwise; y is downward.
 fn is_front(corners: [&Vertex; 3], eye: Eye) -> bool {
     let [[x0, y0], [x1, y1], [x2, y2]] =
         corners.map(|v| [v.x[eye as usize], v.y[eye as usize]].map(i64::from));

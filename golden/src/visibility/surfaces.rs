@@ -1,4 +1,4 @@
-//! What hidden-surface algorithms work on.
+//! Input of the hidden-surface algorithms.
 
 use super::{Items, NO_ITEM};
 use crate::cost;
@@ -11,7 +11,7 @@ use crate::texture::{Lookup, Texture};
 use crate::work::{Meter, Unmetered};
 use thiserror::Error;
 
-/// Why hidden surfaces of a job cannot be resolved.
+/// The reason why hidden surfaces of a job cannot be resolved.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum VisibilityError {
     /// There is one item a pixel.
@@ -129,7 +129,7 @@ fn drawn(polygon: Polygon) -> Option<Polygon> {
     Some(Polygon { eyes, ..polygon })
 }
 
-/// Whether nothing shows through a polygon.
+/// True if nothing shows through a polygon.
 fn is_opaque(polygon: &Polygon, textures: &[Texture]) -> bool {
     let texture = polygon.texture.and_then(|n| textures.get(n as usize));
     polygon.vertices.iter().all(|v| v.colour.iter().all(|c| c.0[3] == 255))

@@ -5,12 +5,12 @@ use crate::formats::{Eye, DEPTH_MAX};
 use crate::scene::vector::{add, cross, dot, rotate, scale, sub, Vec3};
 use crate::scene::{HalfSpace, Rig, Scene};
 
-/// Where a viewer stands and looks, seen from the place that the rig gives the viewer.
+/// Position and direction of a viewer, relative to the place that the rig gives the viewer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// How far the viewer has moved, in units of the scene.
+    /// Movement of the viewer, in units of the scene.
     pub moved: Vec3,
-    /// How far the viewer has turned to the right, in degrees.
+    /// Turn of the viewer to the right, in degrees.
     pub turned: f64,
 }
 
@@ -30,12 +30,12 @@ pub struct View {
 }
 
 impl View {
-    /// What an eye of the scene's rig sees.
+    /// The view of an eye of the scene's rig.
     pub fn of(scene: &Scene, eye: Eye) -> View {
         View::from(scene, scene.rig.eye(eye))
     }
 
-    /// What a single eye between the two sees.
+    /// The view of a single eye between the two.
     pub fn between(scene: &Scene) -> View {
         View::from(scene, scene.rig.middle())
     }
@@ -136,7 +136,7 @@ impl View {
     }
 }
 
-/// Where what one view shows at a pixel lies in another view.
+/// Map from the pixels of one view to the places of the same points in another view.
 ///
 /// With i = 1/W, the other view's X, Y and W are those of the pixel (x, y, 1, i), times W.
 #[derive(Clone, Copy, Debug)]

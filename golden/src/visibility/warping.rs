@@ -19,9 +19,9 @@ pub use super::disparity::Disparity;
 /// A view made by warping.
 #[derive(Clone, Debug)]
 pub struct Warped {
-    /// What is seen; holes show the background.
+    /// The warped frame; holes show the background.
     pub frame: Frame,
-    /// How many pixels fell on each place, up to 255.
+    /// Number of pixels that fell on each place, up to 255.
     pub sources: Vec<u8>,
 }
 
@@ -144,7 +144,7 @@ pub fn moved(
     warped
 }
 
-/// What is wrong with a pixel.
+/// The fault of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// Nothing was moved there.
@@ -190,7 +190,7 @@ impl Faults {
 }
 
 impl Warped {
-    /// What is wrong with the pixel at `index`, where `truth` is the view drawn directly.
+    /// The fault of the pixel at `index`, if it is wrong; `truth` is the view drawn directly.
     pub fn fault(&self, truth: &Frame, index: usize) -> Option<Fault> {
         let id = self.frame.id[index];
         if self.sources[index] == 0 {

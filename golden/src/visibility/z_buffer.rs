@@ -44,7 +44,7 @@ struct DepthPlane {
 /// A frame buffer with a z-buffer, and what scan conversion needs beside.
 #[derive(Clone, Debug)]
 pub struct ZBuffer {
-    /// What has been drawn. Ids are written for a P-buffer only.
+    /// The frame drawn so far. Ids are written for a P-buffer only.
     pub frame: Frame,
     view: View,
     planes: [HalfSpace; 5],

@@ -1,4 +1,4 @@
-//! What the built-in scenes begin with.
+//! Empty scenes that the built-in ones begin with.
 
 use crate::scene::{Material, Rig, Scene};
 

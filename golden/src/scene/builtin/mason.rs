@@ -26,7 +26,7 @@ impl Mason {
         (self.at, self.yaw) = (at, yaw);
     }
 
-    /// What was built.
+    /// The mesh that was built.
     pub fn finish(self) -> Mesh {
         Mesh { colours: Colours::Vertex(self.paint), ..self.mesh }
     }

@@ -32,7 +32,7 @@ pub const ATOMS: &str = "atoms";
 pub struct Builtin {
     /// Its name on the command line.
     pub name: &'static str,
-    /// What it shows, in one line.
+    /// Its line in `wheatstone list`.
     pub description: &'static str,
     build: fn(u32, u32) -> Scene,
 }

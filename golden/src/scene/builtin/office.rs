@@ -68,8 +68,8 @@ pub fn rooms(name: &str) -> Option<u32> {
     (1..=ROOMS).contains(&rooms).then_some(rooms)
 }
 
-/// Where the desks stand: distances of the partitions from the room's near side, and the middle of
-/// a desk from that of the room.
+/// Positions of the desks: distances of the partitions from the room's near side, and the middle of a desk from that of
+/// the room.
 const DESK_ROWS: [f64; 3] = [2.8, 6.8, 10.8];
 const DESK_COLUMNS: [f64; 2] = [-2.95, 2.95];
 /// Height of the top of a desk.

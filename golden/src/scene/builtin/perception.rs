@@ -10,7 +10,7 @@ use crate::scene::{Material, Scene};
 
 /// Height of the floor, in centimetres from that of the eyes.
 const FLOOR: f64 = -9.0;
-/// Where the wall stands behind the screen.
+/// Distance of the wall behind the screen, in centimetres.
 const WALL: f64 = 50.0;
 /// Sides of a cylinder.
 const SIDES: u32 = 24;

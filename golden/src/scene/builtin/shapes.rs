@@ -116,7 +116,8 @@ pub fn cuboid(centre: Vec3, size: Vec3, repeat: f64) -> Mesh {
     mesh
 }
 
-/// What a profile of (radius, height) pairs sweeps out round the y axis, from its top downward.
+/// The surface that a profile of (radius, height) pairs, from its top downward, sweeps out round
+/// the y axis.
 pub fn turned(centre: Vec3, profile: &[[f64; 2]], columns: u32) -> Mesh {
     let mut mesh = Mesh::default();
     for piece in profile.windows(2) {

@@ -46,12 +46,12 @@ pub struct Cut {
 pub struct Crossing {
     /// The corners that the edge joins.
     pub edge: [usize; 2],
-    /// How far along it the point is, 0 to 1.
+    /// Position of the point along the edge, 0 to 1.
     pub at: f64,
 }
 
 impl Crossing {
-    /// What is there if `ends` is what is at the ends of the edge.
+    /// The value at the point, if `ends` are the values at the ends of the edge.
     pub fn between<const N: usize>(&self, ends: [[f64; N]; 2]) -> [f64; N] {
         mix(ends[0], ends[1], self.at)
     }
@@ -73,7 +73,7 @@ pub fn cut(corners: &[Vec3]) -> Cut {
     Outline::new(&points, &order).cut().unwrap_or_else(|| fan(corners.len(), first))
 }
 
-/// Whether a polygon is convex, as far as its corners lie in one plane; so are those without area.
+/// True if a polygon is convex, as far as its corners lie in one plane; so are those without area.
 pub fn is_convex_polygon(corners: &[Vec3]) -> bool {
     corners.len() <= 3 || flattened(corners.to_vec()).is_none_or(|points| is_convex(&points))
 }
@@ -155,7 +155,7 @@ fn step(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [b[0] - a[0], b[1] - a[1]]
 }
 
-/// Whether all corners turn left, and the outline goes round once.
+/// True if all corners turn left, and the outline goes round once.
 fn is_convex(points: &[[f64; 2]]) -> bool {
     let mut points = points.to_vec();
     points.dedup();
@@ -188,7 +188,7 @@ struct Outline {
     points: Vec<Point>,
     /// Which corner of the polygon each is.
     corners: Vec<usize>,
-    /// How many corners the polygon has.
+    /// Number of the polygon's corners.
     count: usize,
 }
 
@@ -253,7 +253,7 @@ impl Outline {
         [self.points[k], self.points[(k + 1) % self.points.len()]]
     }
 
-    /// Whether so many edges cross that taking them apart would take too long; an estimate.
+    /// True if so many edges cross that taking them apart would take too long; an estimate.
     fn is_tangle(&self) -> bool {
         let n = self.points.len();
         let samples = SAMPLES.min(n);

@@ -1,5 +1,5 @@
-//! Whether an outline touches itself (Shamos & Hoey 1976): a line sweeps over the plane, and only
-//! edges that are neighbours on it are compared.
+//! Test of an outline for touching itself (Shamos & Hoey 1976): a line sweeps over the plane, and
+//! only edges that are neighbours on it are compared.
 
 use i_triangle::i_overlay::i_float::int::point::IntPoint;
 use std::cmp::Ordering;
@@ -53,7 +53,7 @@ impl PartialEq for Edge {
     }
 }
 
-/// Whether the bounding boxes of two edges meet.
+/// True if the bounding boxes of two edges meet.
 pub fn are_near(a: [Point; 2], b: [Point; 2]) -> bool {
     let apart = |of: fn(Point) -> i32| {
         let [a, b] = [a, b].map(|edge| edge.map(of));
@@ -62,7 +62,7 @@ pub fn are_near(a: [Point; 2], b: [Point; 2]) -> bool {
     !apart(|p| p.x) && !apart(|p| p.y)
 }
 
-/// Whether two edges have a point in common.
+/// True if two edges have a point in common.
 pub fn do_touch(a: [Point; 2], b: [Point; 2]) -> bool {
     let beside = |[from, to]: [Point; 2], [p, q]: [Point; 2]| {
         side(from, to, p).signum() * side(from, to, q).signum() > 0
@@ -70,7 +70,7 @@ pub fn do_touch(a: [Point; 2], b: [Point; 2]) -> bool {
     are_near(a, b) && !beside(a, b) && !beside(b, a)
 }
 
-/// Whether two edges of an outline of `n` different points meet elsewhere than at a corner that
+/// True if two edges of an outline of `n` different points meet elsewhere than at a corner that
 /// both have.
 fn do_meet(a: &Edge, b: &Edge, n: usize) -> bool {
     let apart = a.index.abs_diff(b.index);
@@ -84,7 +84,7 @@ fn do_meet(a: &Edge, b: &Edge, n: usize) -> bool {
     side(corner, end, other) == 0 && sweep(&corner, &end) == sweep(&corner, &other)
 }
 
-/// Whether an outline of three points or more touches itself nowhere.
+/// True if an outline of three points or more touches itself nowhere.
 pub fn is_simple(points: &[Point]) -> bool {
     let n = points.len();
     let mut places = HashSet::with_capacity(n);

@@ -18,7 +18,7 @@ fn area(polygon: &[Flat]) -> f64 {
     polygon.iter().zip(next).map(|(a, b)| wedge(*a, *b)).sum::<f64>() / 2.0
 }
 
-/// How often a polygon goes round a point, counter-clockwise.
+/// Winding number of a polygon about a point, positive counter-clockwise.
 fn winding(polygon: &[Flat], p: Flat) -> i32 {
     let next = polygon.iter().cycle().skip(1);
     let crossings = polygon.iter().zip(next).map(|(&a, &b)| {

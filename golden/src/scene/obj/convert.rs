@@ -25,7 +25,7 @@ struct Piece {
     normals: [u32; 3],
 }
 
-/// What the faces of a mesh have in common.
+/// Properties that the faces of a mesh have in common.
 #[derive(Clone, Copy, PartialEq)]
 struct Layout {
     material: u32,
@@ -160,7 +160,7 @@ fn layout(parsed: &Parsed, face: &Element, look: &Look) -> Layout {
     }
 }
 
-/// Whether the texture points of a face are such as can be drawn.
+/// True if no texture point of a face, in repeats, exceeds the limit.
 fn repeats_are_few(parsed: &Parsed, face: &Element, pattern: Pattern) -> bool {
     let points = parsed.corners(face).iter().map(|c| parsed.texture[c.attributes[0] as usize]);
     points.flatten().flat_map(|point| pattern.at(point)).all(|n| n.abs() <= REPEAT_LIMIT)

@@ -71,7 +71,7 @@ impl Finder {
     }
 }
 
-/// Whether a path leads to anything but a folder; its reader refuses what is no file.
+/// True if a path leads to anything but a folder; its reader refuses what is no file.
 fn is_there(path: &Path) -> bool {
     path.metadata().is_ok_and(|there| !there.is_dir())
 }

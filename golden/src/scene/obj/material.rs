@@ -19,7 +19,7 @@ const MAPS: &str = "bump disp decal refl norm";
 /// Statements that are known to change nothing that is drawn here.
 const SILENT: &str = "ka tf ni sharpness km kt pr pm ps pc pcr aniso anisor";
 
-/// Where a texture lies on a surface: texture points times `scale`, plus `offset`.
+/// Position of a texture on a surface: texture points times `scale`, plus `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pattern {
     scale: [f64; 2],
@@ -34,12 +34,12 @@ impl Pattern {
     }
 }
 
-/// What a face looks like.
+/// Appearance of a face.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
     /// Index of the material in the scene.
     pub material: u32,
-    /// How its texture lies, if it has one.
+    /// Position of its texture, if it has one.
     pub pattern: Option<Pattern>,
     /// It is that of faces without material.
     pub is_default: bool,
@@ -110,7 +110,7 @@ impl Library {
     }
 }
 
-/// What a warning says, and more about this one.
+/// Text of a warning, and more about this one.
 type Problem = (&'static str, String);
 
 impl Library {
@@ -370,7 +370,7 @@ fn next_number(text: &str) -> Option<(f64, &str)> {
     Some((number(word).filter(|n| n.is_finite())?, rest.trim_start()))
 }
 
-/// What follows so many words, but the last word at least.
+/// The text after so many words, but the last word at least.
 fn skipped(text: &str, words: usize) -> &str {
     (0..words).fold(text, |text, _| {
         text.split_once(char::is_whitespace).map_or(text, |(_, rest)| rest.trim_start())

@@ -35,7 +35,7 @@ use material::Library;
 use picture::Pictures;
 use std::path::Path;
 
-/// What a mesh is put into: the default rig and light, dark grey background.
+/// The scene that a mesh is put into: the default rig and light, dark grey background.
 pub fn empty_scene() -> Scene {
     let [width, height] = DEFAULT_SIZE;
     Scene {

@@ -23,7 +23,7 @@ const FORMATS: &str = "PNG, JPEG, BMP, TGA or WebP";
 /// A picture that has been read.
 struct Picture {
     texels: RgbaImage,
-    /// What is damaged, if it could be read nevertheless.
+    /// The damage, if the picture could be read nevertheless.
     damage: Option<String>,
 }
 
@@ -125,8 +125,8 @@ fn jpeg_pixels(bytes: &[u8], strict: bool) -> Result<RgbaImage, String> {
     Ok(image::DynamicImage::ImageRgb8(picture).into_rgba8())
 }
 
-/// What is missing of a JPEG picture that decodes to these texels. Decoders do not miss the mark of the end, and go
-/// on with zeros where the data before it ends early: with other bits there they make another picture.
+/// The damage of a JPEG picture that decodes to these texels. Decoders do not miss the mark of the end, and go on with
+/// zeros where the data before it ends early: with other bits there they make another picture.
 fn jpeg_damage(bytes: &[u8], texels: &RgbaImage) -> Option<&'static str> {
     /// No mark, and neither all zeros nor all ones.
     const FILL: [u8; 16] = [0x5a; 16];

@@ -14,7 +14,7 @@ use std::path::Path;
 /// Statements, in small letters, that hold numbers or indices and no name; frequent ones first.
 const OF_NUMBERS: &str = "v f vn vt l vp fo p s curv kd ks ke ka tf d tr ns ni illum";
 
-/// Whether a word is one of a list with blanks between.
+/// True if a word is one of a list with blanks between.
 pub fn is_one_of(list: &str, word: &str) -> bool {
     list.split(' ').any(|listed| listed == word)
 }
@@ -29,7 +29,7 @@ pub struct Statement<'a> {
     pub keyword: Cow<'a, str>,
     /// All of it, without comment.
     pub text: &'a str,
-    /// What follows the first word.
+    /// The text after the first word.
     pub rest: &'a str,
 }
 
@@ -95,7 +95,7 @@ fn halves(text: &str) -> (&str, &str) {
     (word, rest.trim())
 }
 
-/// What precedes a `#` at the beginning or after white space.
+/// The text before a `#` at the beginning or after white space.
 pub fn without_comment(text: &str) -> &str {
     let begins =
         |&(at, _): &(usize, &str)| text[..at].chars().next_back().is_none_or(|c| c.is_whitespace());

@@ -1,4 +1,4 @@
-//! What meshes, materials and attributes become.
+//! Conversion of meshes, materials and attributes.
 
 use super::super::{open, Colours, Scene};
 use crate::scene::Mesh;

@@ -55,8 +55,8 @@ impl Axis {
         }
     }
 
-    /// Whether what the eyes see of a piece is before a row or column of each, crosses it, or is
-    /// behind it.
+    /// Position of a piece, as the eyes see it, against a row or column of each: 0 before it, 2 behind it, 1 across it
+    /// or different for the eyes.
     fn place(self, parts: &[Option<Part>; 2], at: [i32; 2]) -> usize {
         let found = parts.iter().zip(at).filter_map(|(part, at)| {
             let range = self.of(part.as_ref()?);
@@ -81,7 +81,7 @@ pub(super) struct Builder<'a> {
     nodes: Vec<Node>,
 }
 
-/// What is to become a subtree, and whose.
+/// A subtree that is not built yet, and its parent.
 struct Cell {
     pieces: Vec<Piece>,
     parent: Option<(u32, usize)>,
@@ -304,7 +304,7 @@ impl<'a> Builder<'a> {
         candidates.map(|n| (n, self.score(pieces, n))).min_by_key(|&(_, score)| score)
     }
 
-    /// How bad a root is.
+    /// Cost of a root, from a sample of the pieces: those that it cuts, weighted, and the imbalance of its sides.
     fn score(&self, pieces: &[Piece], root: usize) -> usize {
         let planes = &self.planes[pieces[root].polygon as usize];
         let (mut cuts, mut low, mut high) = (0, 0, 0usize);
@@ -332,7 +332,7 @@ fn spaced(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..taken).map(move |k| k * count / taken)
 }
 
-/// What the left and the right eye see of some pieces.
+/// The parts of some pieces that the left eye sees, and those that the right eye sees.
 fn apart(pieces: Vec<Piece>) -> [Vec<Piece>; 2] {
     let mut trees = [Vec::new(), Vec::new()];
     for Piece { polygon, views: [left, right] } in pieces {

@@ -14,7 +14,7 @@ use crate::work::{Meter, Operations};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// What one eye sees, by a traversal for it.
+/// Item buffer of one eye, by a traversal for it.
 pub fn one(surfaces: &Surfaces, tree: &Tree, eye: Eye, meter: &mut impl Meter) -> Items {
     let mut items = [surfaces.items()];
     draw(surfaces, tree, [eye], &mut items, &mut ZBuffer::default(), meter);
@@ -22,7 +22,7 @@ pub fn one(surfaces: &Surfaces, tree: &Tree, eye: Eye, meter: &mut impl Meter) -
     items
 }
 
-/// What both eyes see, by one traversal.
+/// Item buffers of both eyes, by one traversal.
 pub fn both(surfaces: &Surfaces, tree: &Tree, meter: &mut impl Meter) -> [Items; 2] {
     let mut items = [(); 2].map(|()| surfaces.items());
     draw(surfaces, tree, Eye::BOTH, &mut items, &mut ZBuffer::default(), meter);
@@ -65,7 +65,7 @@ impl ZBuffer {
     }
 }
 
-/// What is left to do of a traversal.
+/// A step of a traversal that is left to do.
 #[derive(Clone, Copy)]
 enum Task {
     Visit(u32),
@@ -124,9 +124,9 @@ struct Painter<'a, M, const EYES: usize> {
     surfaces: &'a Surfaces<'a>,
     eyes: [Eye; EYES],
     canvas: Canvas<'a, M, EYES>,
-    /// Whether all but the last view are to be resolved by depth.
+    /// True if all but the last view are to be resolved by depth.
     contested: bool,
-    /// Whether the views share their rows.
+    /// True if the views share their rows.
     level: bool,
     scan: Scan<EYES>,
     scan_one: Scan<1>,
@@ -188,7 +188,7 @@ impl<M: Meter, const EYES: usize> Painter<'_, M, EYES> {
     }
 }
 
-/// What is drawn on.
+/// The buffers that are drawn on, and the meter of that work.
 struct Canvas<'a, M, const EYES: usize> {
     items: &'a mut [Items; EYES],
     z_buffer: &'a mut ZBuffer,

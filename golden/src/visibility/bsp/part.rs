@@ -10,7 +10,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Whether they have pixels in common.
+    /// True if they have pixels in common.
     pub fn meets(&self, other: &Part) -> bool {
         let meet = |a: &Range<i32>, b: &Range<i32>| a.start < b.end && b.start < a.end;
         meet(&self.columns, &other.columns) && meet(&self.rows, &other.rows)

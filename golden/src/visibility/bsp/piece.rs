@@ -14,11 +14,11 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     pub polygon: u32,
-    /// What each eye sees of it, if anything.
+    /// The part of it that each eye sees, if any.
     pub views: [Option<Region>; 2],
 }
 
-/// What an eye sees of a piece.
+/// The part of a piece that an eye sees.
 #[derive(Clone, Debug)]
 pub(super) struct Region {
     /// Rows with pixels of it.
@@ -28,7 +28,7 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// What it has of the polygon's span on a row, in a view of this width.
+    /// Columns of the polygon's span that it has on a row, in a view of this width.
     #[inline]
     pub fn within(&self, row: i32, [first, end]: [i32; 2], width: i32) -> [i32; 2] {
         let (first, end) = (first.max(0), end.min(width));
@@ -93,8 +93,8 @@ impl Window {
         Part { columns, rows: region.rows.clone() }
     }
 
-    /// Whether a region has pixels on the negative, and on the positive side; neither where all of
-    /// it is in the plane.
+    /// True for the negative, and for the positive side, if a region has pixels there; for neither
+    /// if all of it is in the plane.
     pub fn sides(&self, polygon: &Polygon, region: &Region, side: &Side) -> [bool; 2] {
         let corners = self.corner_sides(polygon, side);
         if corners != [true, true] {

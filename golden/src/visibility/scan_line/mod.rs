@@ -22,7 +22,7 @@ use table::Table;
 pub use row::Seen;
 pub use table::Line;
 
-/// What one eye sees.
+/// Item buffer of one eye.
 pub fn one<T: Real>(surfaces: &Surfaces, eye: Eye, meter: &mut impl Meter) -> Items {
     let mut items = [surfaces.items()];
     draw_items::<T, 1>(surfaces, [eye], &mut items, meter);
@@ -30,7 +30,7 @@ pub fn one<T: Real>(surfaces: &Surfaces, eye: Eye, meter: &mut impl Meter) -> It
     items
 }
 
-/// What both eyes see, in one pass; in one for each if they do not share their rows
+/// Item buffers of both eyes, in one pass; in one for each if they do not share their rows
 /// ([`Surfaces::level`]).
 pub fn both<T: Real>(surfaces: &Surfaces, meter: &mut impl Meter) -> [Items; 2] {
     if surfaces.level().is_err() {

@@ -47,7 +47,7 @@ impl Depths {
     }
 }
 
-/// What a view shows on a row.
+/// A row of a view with its visible polygons.
 pub struct Seen<'a, T, const EYES: usize, const VALUES: usize> {
     /// The view, counted from 0.
     pub view: usize,

@@ -21,7 +21,7 @@ struct Entry<T, const EYES: usize, const VALUES: usize> {
     slopes: [T; VALUES],
 }
 
-/// What is known of a polygon.
+/// A polygon in the table.
 struct Face<T, const EYES: usize, const VALUES: usize> {
     /// Views in which it is to be seen.
     seen: [bool; EYES],
