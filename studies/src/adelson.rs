@@ -48,7 +48,7 @@ fn saved([separately, together]: [Work; 2], count: impl Fn(&Work) -> u64) -> f64
     1.0 - count(&together) as f64 / count(&separately) as f64
 }
 
-/// How a saving of work is held to the printed one.
+/// Checks of a saving of work against the printed ones.
 fn checks(printed: &Printed, check: fn(f64) -> Check) -> [Check; 3] {
     [printed.i, printed.ii, printed.corrected].map(check)
 }

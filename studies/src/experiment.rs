@@ -14,13 +14,13 @@ use wheatstone_golden::visibility::VisibilityError;
 pub struct Experiment {
     /// Its name on the command line.
     pub name: &'static str,
-    /// What it computes, in one line.
+    /// Its line in `wheatstone list`.
     pub description: &'static str,
     /// Runs it; pictures and plots go into the folder, which exists.
     pub run: fn(&Path) -> Result<Report, StudyError>,
 }
 
-/// Why an experiment could not be finished.
+/// The reason why an experiment could not be finished.
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// A scene cannot be drawn.

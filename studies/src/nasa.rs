@@ -179,13 +179,13 @@ impl Observer {
         Observer { camera: Camera::new(&rig, PIXELS[0], PIXELS[1], &formats), viewer, rig }
     }
 
-    /// Where a point straight ahead is seen, from the pixels of its images.
+    /// Perceived distance of a point straight ahead, from the pixels of its images.
     fn seen(&self, distance: f64) -> f64 {
         let p = [0.0, 0.0, distance - self.rig.viewing_distance];
         self.met(Eye::BOTH.map(|eye| self.camera.pixel(p, eye)[0]))
     }
 
-    /// Where lines of sight through columns of the two pictures meet.
+    /// Distance at which lines of sight through columns of the two pictures meet.
     fn met(&self, [left, right]: [f64; 2]) -> f64 {
         let disparity = (right - left) / self.rig.pixels_per_unit;
         let Viewer { eye_distance, screen_distance } = self.viewer;

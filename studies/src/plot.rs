@@ -39,7 +39,7 @@ pub struct Series {
     pub name: String,
     /// Its points in the order they are joined; the line is interrupted where one is not finite.
     pub points: Vec<(f64, f64)>,
-    /// Whether its line is dashed, so that another that lies under it can be seen.
+    /// True if its line is dashed, so that another that lies under it can be seen.
     pub dashed: bool,
 }
 

@@ -21,7 +21,7 @@ pub struct Prepared {
     pub config: Config,
     /// Choices of setup.
     pub options: Options,
-    /// How textures are sampled.
+    /// Method of texture sampling.
     pub lookup: Lookup,
     tree: OnceLock<Tree>,
 }

@@ -6,7 +6,7 @@ use serde_json::{json, Value};
 use std::fmt;
 use std::path::PathBuf;
 
-/// What an experiment found.
+/// Results of an experiment.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Name of the experiment.
@@ -22,7 +22,7 @@ pub struct Report {
 /// One table, or the figures that belong together.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    /// What it shows, with the place in the publication.
+    /// Title, with the place in the publication.
     pub title: String,
     /// Its rows.
     pub rows: Vec<Row>,
@@ -31,7 +31,7 @@ pub struct Table {
 /// One figure.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What is measured.
+    /// The measured quantity.
     pub what: String,
     /// Unit of all three numbers; empty for counts and ratios.
     pub unit: String,
@@ -44,23 +44,23 @@ pub struct Row {
     pub corrected: Option<f64>,
     /// As it comes out here; not a number where it is quoted only.
     pub here: f64,
-    /// What comes out here is less than `here`, by how much is not known.
+    /// The value found is less than `here`, by an unknown amount.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub here_less: bool,
     /// Digits after the point to show.
     pub digits: usize,
-    /// What `here` is held against.
+    /// Requirement on `here`.
     pub check: Check,
-    /// Why `corrected` differs from `printed`: the erratum's short name in `docs/errata.md`, a colon
-    /// and what it says.
+    /// The reason why `corrected` differs from `printed`: the erratum's short name in `docs/errata.md`, a colon and
+    /// what it says.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub erratum: Option<&'static str>,
-    /// What else must be known of it: where a limit comes from, why it is not judged.
+    /// Remark: the origin of a limit, the reason why the figure is not judged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<&'static str>,
 }
 
-/// What a figure must hold.
+/// Requirement on a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Check {
@@ -76,7 +76,7 @@ pub enum Check {
     Trend,
 }
 
-/// Whether a figure holds.
+/// Result of the check of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -159,7 +159,7 @@ impl Row {
         self
     }
 
-    /// Whether the figure holds.
+    /// Result of the check.
     pub fn verdict(&self) -> Verdict {
         let holds = |holds| if holds { Verdict::Holds } else { Verdict::Differs };
         let reference = self.corrected.or(self.printed).unwrap_or(f64::NAN);
@@ -226,7 +226,7 @@ impl Report {
     }
 }
 
-/// What stands before a figure that is an upper bound.
+/// The mark before a figure that is an upper bound.
 fn less(bound: bool) -> &'static str {
     if bound {
         "<"

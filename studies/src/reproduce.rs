@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use wheatstone_golden::files::{self, Set, WriteError};
 use wheatstone_golden::progress::Stage;
 
-/// What is told while experiments run.
+/// An event while experiments run.
 #[derive(Clone, Copy, Debug)]
 pub enum Event<'a> {
     /// An experiment begins.
@@ -18,7 +18,7 @@ pub enum Event<'a> {
     End(&'a Report, Duration),
 }
 
-/// How many figures hold, differ, and are not judged.
+/// Numbers of figures that hold, differ, and are not judged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Summary {
     /// Figures that hold.

@@ -4,7 +4,7 @@ use crate::Check;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// What a form that is never slower by more than 2 % reaches at least.
+/// Least speed-up of a form that is never slower by more than 2 %.
 const NOT_SLOWER: f64 = 0.981;
 /// Part of the work from which saving it must show in time.
 const CONSIDERABLE: f64 = 0.1;
@@ -26,8 +26,7 @@ impl Ratio {
     }
 }
 
-/// What a speed-up is held to, in a release build: range checks of a debug build are no part of the
-/// algorithms.
+/// Requirement on a speed-up, in a release build: range checks of a debug build are no part of the algorithms.
 pub fn at_least(least: f64) -> Check {
     if cfg!(debug_assertions) {
         Check::Trend
@@ -67,7 +66,7 @@ pub fn ratio<A, B>(
     Ratio { first: first.shortest, second: second.shortest }
 }
 
-/// How long a piece of code takes.
+/// Time that a piece of code takes.
 #[derive(Clone, Copy, Debug)]
 pub struct Spell {
     /// Its shortest run.

@@ -1,6 +1,5 @@
-//! What a rig shows: eyes and screen, where distances in the scene are perceived, disparities, and
-//! fields of view (NASA 1992, table I and figures 5 to 7; Duvanenko and Robbins 1993, "Transforming
-//! Interocular Distance").
+//! The space that a rig shows: eyes and screen, perceived distances of those in the scene, disparities, and fields of
+//! view (NASA 1992, table I and figures 5 to 7; Duvanenko and Robbins 1993, "Transforming Interocular Distance").
 
 use crate::plot::{self, Series};
 use serde::Serialize;
@@ -32,21 +31,21 @@ pub struct Volume {
 /// A distance from the eyes in the scene, and what becomes of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Place {
-    /// What is there; empty for a distance like any other.
+    /// Name of the place; empty for a distance like any other.
     pub what: String,
     /// In the scene's unit.
     pub distance: f64,
     /// In the screen's unit; none where nothing is drawn.
     pub perceived: Option<f64>,
-    /// How far the right eye's image is beside the left eye's, in pixels: negative before the screen,
-    /// positive behind it. Along the line of the eyes.
+    /// Offset of the right eye's image from the left eye's, along the line of the eyes, in pixels: negative before the
+    /// screen, positive behind it.
     pub disparity: Option<f64>,
 }
 
-/// What is seen at a perceived distance.
+/// Fields of view at a perceived distance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// What is there.
+    /// Name of the distance.
     pub what: String,
     /// In the screen's unit.
     pub perceived: f64,
@@ -57,7 +56,7 @@ pub struct Field {
 /// A length of the viewer or of the screen in all units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Length {
-    /// What is measured.
+    /// Name of the length.
     pub what: &'static str,
     /// In the unit of the rig file's display, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -144,7 +143,7 @@ impl Volume {
         Some([of("scene, nearest", nearest), of("scene, farthest", farthest)])
     }
 
-    /// What is seen at the screen itself, where it is one distance.
+    /// The place of the screen itself, if it is one distance.
     fn at_screen(&self) -> Option<Place> {
         let at = |range: &Range| {
             let distance = range.map.scene(self.viewer.screen_distance);
@@ -274,7 +273,7 @@ impl Volume {
         Ok(files.into())
     }
 
-    /// Where the plot of the map ends: it shows the screen, the scene, and the beginning of the last
+    /// Distance at which the plot of the map ends: it shows the screen, the scene, and the beginning of the last
     /// partition.
     fn plotted(&self) -> f64 {
         let last = &self.ranges[self.ranges.len() - 1];

@@ -3,7 +3,7 @@
 use crate::errata::COLUMN_III;
 use crate::{Check, Row};
 
-/// What the publication prints of an algorithm.
+/// Figures that the publication prints of an algorithm.
 #[derive(Clone, Copy, Debug)]
 pub struct Printed {
     /// Measure I: part of the work for both views that is saved, in per cent.

@@ -12,7 +12,7 @@ use wheatstone_golden::work::Work;
 pub struct Method {
     /// Its name in tables and of its error picture.
     pub name: &'static str,
-    /// What it does, in one line.
+    /// A line for the user while it runs.
     pub description: &'static str,
     /// Which views can be wrong.
     pub judged: Judged,
@@ -21,7 +21,7 @@ pub struct Method {
     pub preparation: Option<fn(&Prepared) -> Duration>,
     /// Draws both views and counts.
     pub draw: fn(&Prepared) -> Result<Pair, Unsuited>,
-    /// What is timed.
+    /// The code that is timed.
     pub timed: Timed,
 }
 
@@ -51,12 +51,11 @@ pub struct Pair {
     pub frames: [Frame; 2],
     /// Work for the second view.
     pub work: Work,
-    /// How polygons were drawn, of a method that derives.
+    /// Statistics of the polygons by the way in which they were drawn, of a method that derives.
     pub counts: Option<Counts>,
 }
 
-/// What is timed of a method, without counting. Only scenes that [`Method::draw`] can draw come
-/// here.
+/// Code of a method that is timed, without counting. Only scenes that [`Method::draw`] can draw come here.
 #[derive(Clone, Copy, Debug)]
 pub enum Timed {
     /// The right view, from polygons and from the left view as it was drawn directly.

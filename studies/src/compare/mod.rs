@@ -28,21 +28,21 @@ use wheatstone_golden::progress::Stage;
 use wheatstone_golden::quality::Quality;
 use wheatstone_golden::work::{Unmetered, Work};
 
-/// What came of a method.
+/// A method with its result.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The method.
     pub method: Method,
-    /// What was measured; or why it could not be.
+    /// The measurements; or the reason why the method cannot draw the scene.
     pub result: Result<Measured, Unsuited>,
 }
 
-/// What was measured of a method.
+/// Measurements of a method.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// Work for the second view.
     pub work: Work,
-    /// How polygons were drawn, of a method that derives.
+    /// Statistics of the polygons by the way in which they were drawn, of a method that derives.
     pub counts: Option<Counts>,
     /// Time of the second view over that of direct rendering.
     pub time: Time,
@@ -61,12 +61,12 @@ pub struct Measured {
 pub struct Time {
     /// The ratio, at least 0.
     pub ratio: f64,
-    /// How well it is known: a ratio of no more is no measurement.
+    /// Noise of the ratio: a ratio of no more is no measurement.
     pub noise: f64,
 }
 
 impl Time {
-    /// What `part` takes more than `rest`, by `whole`. Nothing takes less than no time.
+    /// Time of `part` beyond that of `rest`, by `whole`; at least 0.
     fn of(part: Spell, rest: Option<Spell>, whole: Spell) -> Time {
         let rest = rest.unwrap_or(Spell { shortest: Duration::ZERO, noise: Duration::ZERO });
         let by_whole = |time: Duration| time.as_secs_f64() / whole.shortest.as_secs_f64();
@@ -76,7 +76,7 @@ impl Time {
         }
     }
 
-    /// Whether it is more than noise.
+    /// True if it is more than noise.
     pub fn is_measured(&self) -> bool {
         self.ratio > self.noise
     }

@@ -1,4 +1,4 @@
-//! What came of the methods, as a table and as JSON.
+//! Results of the methods, as a table and as JSON.
 
 use super::{Measured, Method, Outcome};
 use serde_json::{json, Value};
@@ -54,7 +54,7 @@ pub fn table(outcomes: &[Outcome]) -> String {
     format!("{table}{notes}")
 }
 
-/// How many polygons were derived, and why the others were not.
+/// Number of polygons that were derived, and the reasons why the others were not.
 fn derived(counts: &Counts) -> String {
     let number = |n: u64| Grouped(n).to_string();
     let mut why: Vec<String> =

@@ -19,7 +19,7 @@ const MARGIN: u32 = 1024;
 /// Depths that count as a tie, in units of the 24-bit depth.
 const TIE: i64 = 2;
 
-/// Why nothing was drawn.
+/// The reason why nothing was drawn.
 #[derive(Debug, Error)]
 pub enum OpenGlError {
     /// There is no C compiler.
@@ -114,7 +114,7 @@ impl Renderer {
     }
 }
 
-/// What an eye sees of polygons, as triangles for OpenGL, and the index of each one's polygon.
+/// Polygons that an eye sees, as triangles for OpenGL, and the index of each one's polygon.
 fn triangles(polygons: &[Polygon], eye: Eye, formats: &Formats) -> (Vec<[[f64; 3]; 3]>, Vec<u32>) {
     let (mut triangles, mut owner) = (Vec::new(), Vec::new());
     for (index, polygon) in (0..).zip(polygons) {
@@ -168,7 +168,7 @@ impl Differences {
 /// Both views drawn directly and with OpenGL.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// What differs.
+    /// Differences, of both views together.
     pub differences: Differences,
     /// Seconds that OpenGL takes for both views.
     pub seconds: f64,

@@ -15,8 +15,8 @@ use wheatstone_golden::work::{Unmetered, Work};
 const ROUNDS: usize = 81;
 /// Further runs of the view from visible polygons, which takes a fraction of a millisecond.
 const SHORT_RUNS: usize = 200;
-/// How far the viewer moves in the publication's figures 3 to 7: 20 cm to the left, and three degrees
-/// about the y axis; which way is not said.
+/// Movements of the viewer in the publication's figures 3 to 7: 20 cm to the left, and three degrees about the y axis;
+/// in which direction is not said.
 pub const MOVES: [Pose; 2] =
     [Pose { moved: [-0.2, 0.0, 0.0], turned: 3.0 }, Pose { moved: [-0.2, 0.0, 0.0], turned: -3.0 }];
 
@@ -27,7 +27,7 @@ pub struct Office {
     pub scene: Scene,
     /// Its polygons.
     pub model: Model,
-    /// What the left and the right eye see.
+    /// Views of the left and the right eye.
     pub eyes: [View; 2],
 }
 
@@ -44,7 +44,7 @@ pub struct Step {
     pub warped: Warped,
 }
 
-/// What comes out for one number of rooms.
+/// Measurements for one number of rooms.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured {
     /// Polygons.
@@ -120,7 +120,7 @@ impl Office {
         })
     }
 
-    /// What one eye sees after the viewer has moved.
+    /// View of a single eye between the two after the viewer has moved.
     pub fn view(&self, pose: &Pose) -> View {
         View::between(&self.scene).at(pose, &self.scene.rig)
     }

@@ -5,7 +5,7 @@ use crate::{Check, Row, Table};
 /// Answers of one group of subjects: their mean and standard deviation.
 type Answers = (f64, f64);
 
-/// Whether two means are the same, by Welch's test.
+/// Welch's test that two means are the same.
 struct Welch {
     t: f64,
     degrees: f64,

@@ -40,7 +40,7 @@ pub fn write(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
     Ok(files)
 }
 
-/// Where the P-buffer's and where the warped view is wrong.
+/// Pictures of the errors of the P-buffer's and of the warped view.
 fn errors(step: &Step) -> [RgbImage; 2] {
     [wrong_picture(&step.p_buffer, &step.truth), step.warped.fault_picture(&step.truth)]
 }

@@ -94,12 +94,12 @@ impl Columns {
     }
 }
 
-/// What one more polygon costs.
+/// Time for one more polygon, in the column's unit.
 fn slope(column: &[(f64, f64)]) -> f64 {
     fit(column)[1]
 }
 
-/// What follows from the printed times.
+/// Figures that follow from the printed times.
 pub fn lines() -> Table {
     let printed = Columns::printed();
     let seconds = |what: &str, column: &[(f64, f64)], expected: f64| {

@@ -23,7 +23,7 @@ pub struct Walk {
     pub chained: Vec<f64>,
 }
 
-/// Where the viewer is at a frame: 20 cm a step along the aisle, looking up to 18 degrees to either
+/// Position and direction of the viewer at a frame: 20 cm a step along the aisle, turned up to 18 degrees to either
 /// side, at most 2.8 degrees farther each step.
 fn pose(frame: usize) -> Pose {
     let frame = frame as f64;

@@ -1,9 +1,9 @@
 //! Adelson et al. 1991, the last rows of Table 1: BSP tree and one z-buffer, scan line, and the
 //! simple renderer on a village.
 //!
-//! What the authors print was measured on their machine. Here both ways are timed side by side in
-//! one run, and their work is counted. Counts are held to the printed saving; time is held to be
-//! saved at all, and the printed percentage is shown beside it.
+//! The printed times were measured on the authors' machine. Here both ways are timed side by side in one run, and their
+//! work is counted. Counts are held to the printed saving; time is held to be saved at all, and the printed percentage
+//! is shown beside it.
 
 pub mod boxes;
 
@@ -316,7 +316,7 @@ fn time(model: &Model) -> f64 {
     time.of_shortest()
 }
 
-/// How many elements differ.
+/// Number of elements that differ.
 fn different(a: &[u32], b: &[u32]) -> usize {
     a.iter().zip(b).filter(|(a, b)| a != b).count()
 }

@@ -125,7 +125,7 @@ impl Volume {
         plain(&head, rows)
     }
 
-    /// What a user may not have meant: what is not drawn, and perceived distances that run backward.
+    /// Remarks for the user: a tilted head, polygons that are not drawn, perceived distances that run backward.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         let tilt = self.rig.head_tilt;
@@ -139,7 +139,7 @@ impl Volume {
         notes
     }
 
-    /// Those of the notes that say that something may be wrong.
+    /// The notes that say that something may be wrong.
     pub fn warnings(&self) -> Vec<String> {
         let backward = |(n, pair): (usize, &[super::Range])| {
             let [near, far] = [&pair[0], &pair[1]];
@@ -161,7 +161,7 @@ impl Volume {
         notes
     }
 
-    /// What of the scene lies beside the distances that are drawn, where these are the projection's.
+    /// A note on polygons beside the distances that are drawn, if these are the projection's.
     fn undrawn(&self) -> Option<String> {
         let Extent { polygons, undrawn, partly, .. } = self.extent;
         let limited = matches!(self.rig.projection.kind(), Kind::Piecewise | Kind::Asymptotic);
@@ -185,7 +185,7 @@ impl Volume {
 }
 
 impl fmt::Display for Volume {
-    /// What is shown how, in a line.
+    /// Size of the views, projection and scale, in a line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [width, height] = self.size;
         let kind = self.rig.projection.kind().name();
