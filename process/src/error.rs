@@ -1,4 +1,4 @@
-//! Why a program gave no result.
+//! Errors of running a program.
 
 use std::fmt;
 use std::io;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 use thiserror::Error;
 
-/// Why a program gave no result.
+/// The reason why a program gave no result.
 #[derive(Debug, Error)]
 pub enum ProcessError {
     /// It could not be started.
@@ -16,7 +16,7 @@ pub enum ProcessError {
         tool: String,
         /// Its program.
         program: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
     /// It did not end.
@@ -47,7 +47,7 @@ pub enum ProcessError {
 pub struct Call {
     /// The tool.
     pub tool: String,
-    /// What it works on, or empty.
+    /// Name of the object that it works on, or empty.
     pub subject: String,
 }
 

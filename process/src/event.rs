@@ -1,6 +1,6 @@
 //! Messages to the thread that waits for a program.
 
-/// What is told to who waits for a program.
+/// An event for the thread that waits for a program.
 pub(crate) enum Event {
     /// It ended.
     Ended,

@@ -1,4 +1,4 @@
-//! What is kept of the output of a program: its beginning and its end.
+//! The kept output of a program: its beginning and its end.
 
 use crate::event::Event;
 use std::collections::VecDeque;
@@ -54,12 +54,12 @@ impl Kept {
         Kept(part)
     }
 
-    /// Whether the stream has ended.
+    /// True if the stream has ended.
     pub fn is_drained(&self) -> bool {
         lock(&self.0).is_drained
     }
 
-    /// What was kept so far, with a line in the place of what was not.
+    /// Takes the bytes that were kept so far, with a line in the place of those that were not.
     pub fn take(&self) -> Vec<u8> {
         let part = std::mem::take(&mut *lock(&self.0));
         let mut bytes = part.head;

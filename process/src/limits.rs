@@ -1,4 +1,4 @@
-//! How long a program may take, and who is told what is waited for.
+//! Time limits of programs, and the receiver of lines about a wait.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::OnceLock;

@@ -1,10 +1,10 @@
-//! How much memory this process may take, its children left out.
+//! Memory limit of this process, its children left out.
 
 use rustix::process::{getrlimit, prlimit, setrlimit, Pid, Resource, Rlimit};
 use std::fs;
 use std::sync::OnceLock;
 
-/// What the limit was before, which children have.
+/// The limit before, which children have.
 static BEFORE: OnceLock<Rlimit> = OnceLock::new();
 
 /// Limits the memory of this process from now on to three quarters of the machine's: what is asked for beyond is

@@ -3,23 +3,23 @@
 use std::process::ExitStatus;
 use std::time::Duration;
 
-/// What a program said and how it ended.
+/// Output and end of a program.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// How it ended.
+    /// Exit status, or the signal that ended it.
     pub status: ExitStatus,
     /// Its standard output: all of it, or its beginning and end with a line between them.
     pub stdout: Vec<u8>,
     /// Its standard error, likewise.
     pub stderr: Vec<u8>,
-    /// Whether it was stopped as it had used up its processor time.
+    /// True if it was stopped because it had used up its processor time.
     pub is_stopped: bool,
     /// Processor time that it and what it has started have used, where that is limited.
     pub processor: Duration,
 }
 
 impl Output {
-    /// Whether it ended by itself, and well.
+    /// True if it ended by itself, and well.
     pub fn succeeded(&self) -> bool {
         self.status.success() && !self.is_stopped
     }

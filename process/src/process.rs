@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 pub const KEPT: usize = 2 << 20;
 /// Bytes that a program may print beyond what is kept.
 const FLOOD: u64 = 256 << 20;
-/// How often the processor time of a limited program is looked up.
+/// Time between two looks at the processor time of a limited program.
 const LOOK: Duration = Duration::from_millis(200);
 /// Time that the streams of a program may stay open after its group was killed; a busy machine needs some of it.
 const DRAIN: Duration = Duration::from_secs(10);
@@ -52,7 +52,7 @@ impl<'a> Process<'a> {
         }
     }
 
-    /// What it works on, as messages name it.
+    /// Names the object that it works on, for messages.
     pub fn on(mut self, subject: impl Into<String>) -> Process<'a> {
         self.call.subject = subject.into();
         self
@@ -224,7 +224,7 @@ impl<'a> Process<'a> {
     }
 }
 
-/// How long a program may take.
+/// Time limit of a program.
 #[derive(Clone, Copy, Debug)]
 enum Limit {
     /// As all do.
@@ -235,7 +235,7 @@ enum Limit {
     None,
 }
 
-/// How the wait for a program ended.
+/// End of the wait for a program.
 enum End {
     Ended,
     Stopped,

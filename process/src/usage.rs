@@ -1,4 +1,4 @@
-//! What the system knows of processes: whose they are, and the processor time that they have used.
+//! Processes as the system knows them: their parents and groups, and the processor time that they have used.
 
 use crate::group::left;
 use rustix::process::{
@@ -13,12 +13,12 @@ use std::time::{Duration, Instant};
 /// Time in which killed processes must have ended.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What a thread is at.
+/// Processor time and state of a thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Activity {
     /// Processor time that it has used.
     pub processor: Duration,
-    /// Whether it waits for something other than a processor.
+    /// True if it waits for something other than a processor.
     pub sleeps: bool,
 }
 
@@ -66,14 +66,14 @@ pub(crate) fn of_group(group: Pid) -> Duration {
     time(members.flat_map(|(_, stat)| stat.ticks).sum())
 }
 
-/// What a thread of this process is at.
+/// Processor time and state of a thread of this process.
 pub fn of_thread(id: i32) -> io::Result<Activity> {
     let line = fs::read_to_string(format!("/proc/self/task/{id}/stat"))?;
     let stat = Stat::parse(&line).ok_or(io::ErrorKind::InvalidData)?;
     Ok(Activity { processor: time(stat.ticks[0] + stat.ticks[1]), sleeps: stat.sleeps })
 }
 
-/// What a child leaves behind when it ends comes to this process from now on, whatever group it is in.
+/// Makes this process the parent, from now on, of all that a child leaves behind when it ends, whatever group it is in.
 pub fn adopt_orphans() {
     // An old kernel cannot: then nothing comes.
     let _ = set_child_subreaper(Some(getpid()));

@@ -9,7 +9,7 @@ fn sh(script: &str) -> Command {
     command
 }
 
-/// Whether a process lives; one that has ended and is not waited for does not.
+/// True if a process lives; one that has ended and is not waited for does not.
 fn lives(id: &str) -> bool {
     let stat = fs::read_to_string(format!("/proc/{}/stat", id.trim())).unwrap_or_default();
     stat.rsplit_once(") ").is_some_and(|(_, rest)| !rest.starts_with('Z'))
