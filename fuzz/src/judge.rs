@@ -1,4 +1,4 @@
-//! What is wrong with a run.
+//! Faults of a run.
 
 use crate::Kind;
 use std::collections::BTreeSet;
@@ -26,7 +26,7 @@ pub fn files(folder: &Path) -> io::Result<BTreeSet<PathBuf>> {
     Ok(found)
 }
 
-/// What is wrong with a run in a folder in which there were these files before, if anything is.
+/// The fault of a run in a folder in which there were these files before, if there is one.
 pub fn fault(
     kind: &Kind,
     output: &Output,
@@ -73,7 +73,7 @@ fn is_hidden(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Whether a text names a file of the input, or one that these name beside them. Errors of options name the option.
+/// True if a text names a file of the input, or one that these name beside them. Errors of options name the option.
 fn names_a_file(kind: &Kind, text: &str) -> bool {
     let named = |(name, _): &(String, Vec<u8>)| match name.rsplit_once('/') {
         Some((folder, _)) => text.contains(&format!("{folder}/")),

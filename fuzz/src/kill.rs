@@ -18,7 +18,7 @@ use wheatstone_process::Output;
 const CALLS: &str = "openat,?creat,write,pwrite64,writev,?truncate,ftruncate,?rename,?renameat,renameat2,?link,linkat,\
 ?unlink,unlinkat,?mkdir,mkdirat,?rmdir,fsync,fdatasync,copy_file_range,?sendfile";
 
-/// What is run and killed.
+/// A command that is run and killed.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Its name.
@@ -29,7 +29,7 @@ pub struct Case {
     pub before: Option<&'static str>,
     /// The folder with the output.
     pub out: &'static str,
-    /// Whether it calls other programs.
+    /// True if it calls other programs.
     pub calls: bool,
 }
 

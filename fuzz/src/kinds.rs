@@ -1,4 +1,4 @@
-//! What is damaged: files of every kind that the program reads, each with the command that reads it.
+//! Input that is damaged: files of every kind that the program reads, each with the command that reads it.
 
 use crate::program::run;
 use std::fs;

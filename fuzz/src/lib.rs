@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use wheatstone_process::Process;
 
-/// What is to be run.
+/// A run on damaged inputs.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The program.
@@ -45,20 +45,20 @@ pub struct Finding {
     pub kind: &'static str,
     /// Its number.
     pub number: usize,
-    /// What is wrong.
+    /// The fault.
     pub what: String,
-    /// What the program said.
+    /// Output of the program, its first 600 characters.
     pub said: String,
 }
 
-/// What came of the inputs of a kind.
+/// Results of the inputs of a kind.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// Inputs.
     pub inputs: usize,
-    /// Those that the program read.
+    /// Inputs that the program read.
     pub read: usize,
-    /// What it must not do, in order.
+    /// Faults of the program, in order.
     pub findings: Vec<Finding>,
 }
 

@@ -1,4 +1,4 @@
-//! What strace writes of the calls of a program.
+//! The log that strace writes of the calls of a program.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

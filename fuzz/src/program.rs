@@ -1,4 +1,4 @@
-//! What the programs of this crate have in common: options, the program under test, exit statuses.
+//! Common parts of the programs of this crate: options, the program under test, exit statuses.
 
 use std::io;
 use std::path::PathBuf;
@@ -24,7 +24,7 @@ impl Options {
     /// The program under test.
     ///
     /// # Errors
-    /// Where there is none.
+    /// If there is none.
     pub fn program(&self) -> io::Result<PathBuf> {
         let beside = std::env::current_exe()?.with_file_name("wheatstone");
         let program = std::path::absolute(self.program.as_ref().unwrap_or(&beside))?;
@@ -44,7 +44,7 @@ pub fn workspace() -> io::Result<PathBuf> {
     std::path::absolute(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// Those of the known names that are wanted, of which none means all; `what` they are called.
+/// The known names that are wanted; none means all. `what` is the word for such a name in messages.
 ///
 /// # Errors
 /// Of a name that is none of them.

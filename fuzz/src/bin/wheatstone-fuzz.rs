@@ -27,7 +27,7 @@ fn main() -> ExitCode {
     program::main(|| run(&args))
 }
 
-/// Whether nothing was found.
+/// Runs the inputs; true if nothing was found.
 fn run(args: &Args) -> std::io::Result<bool> {
     let program = args.options.program()?;
     let folder = tempfile::tempdir()?;

@@ -24,7 +24,7 @@ fn main() -> ExitCode {
     program::main(|| run(&args))
 }
 
-/// Whether all was whole.
+/// Kills the runs; true if all was whole.
 fn run(args: &Args) -> std::io::Result<bool> {
     let scratch = tempfile::tempdir()?;
     let killer = Killer {
