@@ -22,8 +22,8 @@ type Limits = [(u32, [f64; 2]); TURNED.len()];
 const DEFAULT_LIMITS: Limits = [(0, [0.55, 0.55]), (45, [0.55, 0.55]), (90, [0.57, 0.55])];
 const PAPER_LIMITS: Limits = [(0, [0.55, 0.535]), (45, [0.565, 0.545]), (90, [0.59, 0.565])];
 
-/// What each configuration on record is held to: the limits, and how much of large triangles may be above the
-/// bound: what a pass cannot avoid, a row's overhang, and what is drawn for one eye after the other.
+/// Requirements on each configuration on record: the limits, and the margin of large triangles above the bound, for
+/// what a pass cannot avoid, a row's overhang, and what is drawn for one eye after the other.
 const HELD: [(&str, Limits, f64); 2] =
     [("default", DEFAULT_LIMITS, 0.035), ("paper", PAPER_LIMITS, 0.06)];
 

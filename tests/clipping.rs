@@ -146,8 +146,8 @@ fn a_million_lines_are_clipped_together_as_alone() {
     assert!(saving > 0.25);
 }
 
-/// What of a line is within the closed window: of its ends and its crossings of the borders the
-/// first and the last that are.
+/// The part of a line within the closed window: from the first to the last of those of its ends and
+/// crossings of the borders that are inside.
 fn reference_line(from: [i64; 2], to: [i64; 2]) -> Option<[[Exact; 2]; 2]> {
     let (from, to) = (from.map(Exact::whole), to.map(Exact::whole));
     let borders = [WINDOW.x, WINDOW.y].map(|range| range.map(Exact::whole));
@@ -278,7 +278,7 @@ fn reference_polygon(mut points: Vec<[Exact; 2]>) -> Vec<[Exact; 2]> {
     points
 }
 
-/// How often the outline goes round a point that lies on none of its edges.
+/// Winding number of the outline about a point that lies on none of its edges.
 fn winding(points: &[[Exact; 2]], [x, y]: [Exact; 2]) -> i32 {
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
     let crossings = pairs.map(|(p, q)| {

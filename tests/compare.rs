@@ -57,7 +57,7 @@ fn every_method_is_measured_and_its_errors_drawn() {
     assert_eq!(json[0]["work"]["pixels_tested"], direct.work.pixels_tested);
 }
 
-/// That of the minimal system is not.
+/// Coverage of the minimal system is not exact.
 #[test]
 fn wrong_polygons_are_counted() {
     let outcomes = compare(&prepared("village"), None, |_| ()).expect("done");
@@ -111,7 +111,7 @@ fn what_is_not_derived_is_told_with_its_reason() {
     }
 }
 
-/// Where a view has a single pixel, what both views take more than one is less than noise.
+/// If a view has a single pixel, the time of both views beyond that of one is less than noise.
 #[test]
 fn no_time_is_negative() {
     for kind in [Kind::TwoCentres, Kind::Shear] {

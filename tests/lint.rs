@@ -36,7 +36,7 @@ fn yosys(module: &str, values: &Values) -> Command {
     command
 }
 
-/// What the command says about a module; an empty text is what we want.
+/// The complaint of a command about a module; none if it passes and prints nothing.
 fn complaint(mut command: Command) -> Option<String> {
     let (passed, text) = said(command.current_dir(workspace()));
     (!passed || !text.is_empty()).then_some(text)

@@ -36,7 +36,7 @@ fn packs(target: Target, configuration: &str, out: &Path) -> Vec<Checked> {
     cases::for_packs(target, &config, 1, beats).into_iter().map(write).collect()
 }
 
-/// Whether all packs pass on this Verilog.
+/// True if all packs pass on this Verilog.
 fn pass(packs: &[Checked], rtl: &Path) -> bool {
     let cache = workspace().join(Synthesiser::CACHE);
     let replayer = Replayer { synthesiser: Synthesiser { rtl: rtl.to_owned(), cache } };

@@ -368,7 +368,7 @@ fn a_pack_is_replaced_as_a_whole() {
     assert_eq!(fs::read_dir(out).expect("a folder").count(), 1, "nothing temporary is left");
 }
 
-/// What is no pack, a file or a link to a pack among it, is not replaced.
+/// A place that holds anything but a pack is not replaced, not even a file or a link to a pack.
 #[test]
 fn nothing_but_a_pack_is_replaced() {
     let folder = folder();

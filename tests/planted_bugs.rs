@@ -17,7 +17,7 @@ struct Search {
     alone: Option<Target>,
     /// A system with the unit in it.
     system: Target,
-    /// What the system may name.
+    /// Names that the system's failures may have.
     names: &'static [&'static str],
 }
 
@@ -43,7 +43,7 @@ fn within(system: Target, unit: Target) -> Search {
     Search { alone: (!unit.is_system()).then_some(unit), system, names }
 }
 
-/// What is wrong with the reports of a target: it must have failed, and every failure name the unit.
+/// The fault in the reports of a target: it must have failed, and every failure must name the unit.
 fn fault(entries: &[Entry], target: Target, names: &[&str]) -> Option<String> {
     let entries = entries.iter().filter(|entry| entry.target == target);
     let mut failures = entries.filter_map(|entry| entry.failure.as_ref()).peekable();

@@ -169,7 +169,7 @@ fn matrices_project_as_points_and_cameras_do() {
     }
 }
 
-/// Where the viewer's lines of sight through the two pixels meet: the perceived distance.
+/// Perceived distance: that at which the viewer's lines of sight through the two pixels meet.
 fn triangulated(rig: &Rig, camera: &Camera, p: Vec3) -> f64 {
     let viewer = rig.viewer();
     let [left, right] =

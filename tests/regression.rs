@@ -69,7 +69,7 @@ fn every_single_parameter_passes() {
     }
 }
 
-/// What a run counted, without the times.
+/// The counts of a run, without the times.
 fn counts(entries: &[Entry]) -> BTreeMap<(&'static str, String), [u64; 4]> {
     let count =
         |e: &Entry| ((e.target.name(), e.name.clone()), [e.runs, e.beats, e.compared, e.clocks]);

@@ -77,7 +77,7 @@ fn every_way_says_fail_on_wrong_verilog() {
     }
 }
 
-/// What the script says of a command line, and its exit status; with Python's own packages alone, or all.
+/// Exit status and output of the script for a command line; with Python's own packages alone, or all.
 fn script(own: bool, arguments: &[&Path]) -> (Option<i32>, String) {
     let mut python = Command::new(COCOTB.find().expect("cocotb").program.with_file_name("python3"));
     // Without site packages, among which cocotb is.

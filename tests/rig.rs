@@ -1,4 +1,4 @@
-//! What `wheatstone rig` tells, against triangulation, publications and points of the scene.
+//! Figures of `wheatstone rig` against triangulation, publications and points of the scene.
 
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::{Eye, Formats};
@@ -121,7 +121,8 @@ fn the_chain_is_duvanenkos() {
     assert_eq!(Volume::of(&other, Some(Device::LEX_90)).expect("legal").lengths()[0].display, None);
 }
 
-/// Where the viewer's lines of sight through a point's two images meet, and how far these are apart.
+/// Distance at which the viewer's lines of sight through a point's two images meet, and that between the images, in
+/// pixels.
 fn triangulated(rig: &Rig, distance: f64) -> [f64; 2] {
     let camera = Camera::new(rig, SIZE[0], SIZE[1], &Formats::new(&Config::DEFAULT));
     let p = [0.0, 0.0, distance - rig.viewing_distance];

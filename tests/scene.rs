@@ -180,7 +180,7 @@ fn the_near_plane_cuts_what_passes_it() {
     assert!(cut.iter().flat_map(|p| &p.vertices).all(white));
 }
 
-/// Whether an even-odd count of edges puts a point, in half subpixels, inside any of the polygons.
+/// True if a point, in half subpixels, is inside any of the polygons by an even-odd count of edges.
 fn covers<'a>(polygons: impl Iterator<Item = &'a Polygon>, eye: Eye, x: i64, y: i64) -> bool {
     let inside = |p: &Polygon| {
         let at = |v: &Vertex| [2 * i64::from(v.x[eye as usize]), 2 * i64::from(v.y[eye as usize])];

@@ -95,7 +95,7 @@ fn other_builds_are_measured() {
     }
 }
 
-/// Where nobody watches, the models take short cuts: they must not show.
+/// If nobody watches, the models take short cuts, which must not show.
 #[test]
 fn watched_and_unwatched_runs_draw_the_same() {
     for config in [Config::DEFAULT, Config::PAPER, Config::FULL] {

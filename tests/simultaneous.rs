@@ -209,8 +209,8 @@ fn polygons_are_shaded_together_as_alone() {
     assert!(drawn > 5_000_000, "{drawn}");
 }
 
-/// Where the outline of a convex polygon crosses the centre line of a row of a view, and the
-/// values there, from left to right.
+/// Crossings of a convex polygon's outline with the centre line of a row of a view, and the values
+/// there, from left to right.
 fn crossings(polygon: &[Corner<2, 3>], view: usize, y: usize) -> Vec<(f64, [f64; 3])> {
     let one = f64::from(1 << BITS);
     let line = (y as f64 + 0.5) * one;

@@ -1,4 +1,4 @@
-//! How displays and print hold two views: frame-sequential and field-sequential storage, pairs,
+//! Storage of two views for displays and print: frame-sequential and field-sequential, pairs,
 //! triplets, and their size on paper.
 
 use std::fs;

@@ -60,8 +60,8 @@ fn gates_of_the_paper_configuration_are_as_recorded_and_as_few_as_published() {
     }
 }
 
-/// What is measured by place and route is held to the record by `wheatstone synth --check`; the record to
-/// this.
+/// Figures of place and route are compared with the record by `wheatstone synth --check`; the record with [`FLOORS`]
+/// here.
 #[test]
 fn the_recorded_clocks_are_those_of_a_board() {
     for (target, config, tech, floor) in FLOORS {

@@ -176,7 +176,7 @@ impl Sound {
     }
 }
 
-/// Whether a damaged pack is refused with all of these words, in one line.
+/// Asserts that a damaged pack is refused with all of these words, in one line.
 fn refused(what: &str, words: &[&str], damage: impl FnOnce(&Sound)) {
     let sound = Sound::new();
     damage(&sound);

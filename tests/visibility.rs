@@ -1,4 +1,4 @@
-//! What the tests of hidden-surface algorithms share.
+//! Functions that the tests of hidden-surface algorithms share.
 
 use wheatstone_golden::config::Config;
 use wheatstone_golden::formats::{Eye, Formats};
@@ -90,7 +90,7 @@ pub fn assert_seen(name: &str, job: &Job, surfaces: &Surfaces, items: &[Items; 2
     }
 }
 
-/// Whether polygons have this id in common, as parts of one polygon that was cut have.
+/// True if polygons have this id in common, as parts of one polygon that was cut have.
 fn depth_is_shared(surfaces: &Surfaces, id: u32) -> bool {
     surfaces.opaque.iter().filter(|p| p.id == id).count() > 1
 }

@@ -102,7 +102,7 @@ pub struct Fraction {
 }
 
 impl Fraction {
-    /// Whether `raw`, with 14 fraction bits, is within `halves` half units of the last place.
+    /// True if `raw`, with 14 fraction bits, is within `halves` half units of the last place.
     pub fn is_near(&self, raw: i64, halves: i64) -> bool {
         let distance = 2 * (i128::from(raw) * self.denominator - (self.numerator << FRACTION_BITS));
         distance.abs() <= i128::from(halves) * self.denominator

@@ -36,7 +36,7 @@ fn run(planner: &Planner, walk: &walk::Walk) -> Vec<YPixel> {
     pixels
 }
 
-/// Where an arrangement shows view pixel (x, y), by definition.
+/// Position of view pixel (x, y) in an arrangement, by definition.
 fn shown(
     arrangement: Arrangement,
     eye: Eye,
