@@ -20,7 +20,7 @@ pub(crate) fn lacking(folder: &Path, said: &str) -> Option<Error> {
     })
 }
 
-/// Whether an error says that there is no room.
+/// True if an error says that there is no room.
 pub(crate) fn is_full(error: &Error) -> bool {
     matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
 }

@@ -92,7 +92,7 @@ impl Workspace {
     }
 }
 
-/// What reports of mismatches say in the lines of that name.
+/// The lines of that name in reports of mismatches.
 fn told(output: &Output, name: &str) -> Vec<String> {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let (_, reports) = text.split_once("MISMATCH\n").expect("a report");

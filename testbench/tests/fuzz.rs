@@ -30,7 +30,7 @@ fn damaged_input_is_refused_or_read() {
     assert!(tally.findings.is_empty(), "{:#?}", tally.findings);
 }
 
-/// What reads a record of a workspace, and its error.
+/// Path of a record of a workspace, and the function that reads it, with its error.
 type Reader = (&'static str, fn(&Path) -> Result<(), String>);
 
 fn said<T>(result: Result<T, impl Display>) -> Result<(), String> {

@@ -1,4 +1,5 @@
-//! What the program prints and where it writes: no error is lost, no device replaced, no terminal taken over.
+//! Output of the program, and the places that it writes to: no error is lost, no device replaced, no terminal taken
+//! over.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};

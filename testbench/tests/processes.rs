@@ -11,7 +11,7 @@ use tempfile::TempDir;
 /// A workspace with Verilog, and a folder of tools that stands first in PATH.
 struct Place(TempDir);
 
-/// What a Verilator must answer before it is called for a model.
+/// Answers that a Verilator must give before it is called for a model.
 const ANSWERS: &str = "case $1 in
     --version) echo 'Verilator 5.006 2023-01-22'; exit;;
     --getenv) echo \"$(dirname \"$0\")/share\"; exit;;
@@ -82,7 +82,7 @@ impl Place {
         (child, pid().unwrap_or_default().trim().to_owned())
     }
 
-    /// Whether nothing temporary is left.
+    /// True if nothing temporary is left.
     fn is_tidy(&self) -> bool {
         parts(self.path()).is_empty()
     }
@@ -132,7 +132,7 @@ fn signal(name: &str, id: &str) {
     assert!(Command::new("kill").args(["-s", name, id]).status().expect("kill").success());
 }
 
-/// Whether this test was started with a signal ignored, as HUP is under `nohup`.
+/// True if this test was started with a signal ignored, as HUP is under `nohup`.
 fn is_ignored(name: &str) -> bool {
     let number = ["HUP", "INT"].iter().position(|n| *n == name).map_or(15, |n| n + 1);
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -17,7 +17,7 @@ fn err(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// What makes no sense, and what must be said of it after the name of the file.
+/// Rig files that make no sense, and the error that each must give after the name of the file.
 const WRONG: &[(&str, &str)] = &[
     ("{\"eye_separation\": 0}", "1: eye_separation: expected a number from 1e-9 to 1e9, found 0"),
     ("{\"eye_separation\": -1}", "1: eye_separation: expected a number from 1e-9 to 1e9, found -1"),

@@ -80,7 +80,7 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// What is told of it, with what can be done about it where only the system says why.
+    /// Its message, with a remedy if only the system gives the cause.
     pub(super) fn told(&self) -> String {
         let remedy = system_error(self).and_then(remedy);
         remedy.map_or_else(|| self.to_string(), |remedy| format!("{self}; {remedy}"))
@@ -113,12 +113,12 @@ impl Failure {
     }
 }
 
-/// What the system said, where that is the cause.
+/// The error of the system that is the cause, if one is.
 fn system_error<'a>(error: &'a (dyn Error + 'static)) -> Option<&'a io::Error> {
     error.downcast_ref().or_else(|| error.source().and_then(system_error))
 }
 
-/// What can be done about what the system said.
+/// The remedy for an error of the system, if one is known.
 fn remedy(error: &io::Error) -> Option<&'static str> {
     match error.kind() {
         _ if is_full(error) => Some("make room on that disk and try again"),

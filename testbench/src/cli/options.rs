@@ -45,8 +45,7 @@ pub(super) struct View {
     /// Rig file: eyes, screen, placement and light (JSON)
     #[arg(long, value_name = "FILE")]
     pub rig: Option<PathBuf>,
-    /// How the scene is mapped to the screen (see `wheatstone list`) [default: what the rig file says,
-    /// or two-centres]
+    /// Projection of the scene to the screen (see `wheatstone list`) [default: what the rig file says, or two-centres]
     #[arg(long, value_name = "NAME", value_parser = parse_projection)]
     pub projection: Option<Kind>,
     /// Refuse a scene of which the files say what is not followed, instead of warning
@@ -72,7 +71,7 @@ pub(super) struct Stimulus {
 pub(super) enum CullChoice {
     /// None
     None,
-    /// Those that an eye sees clockwise
+    /// Faces that an eye sees clockwise
     Back,
 }
 

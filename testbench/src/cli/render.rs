@@ -19,7 +19,7 @@ use wheatstone_golden::text::printable_path;
 
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
-    /// How the second view is made
+    /// Method of making the second view
     #[arg(long, value_enum, default_value = "hybrid")]
     method: MethodChoice,
     /// Folder for the pictures; it is made if need be

@@ -33,7 +33,7 @@ pub(super) struct ReplayArgs {
     /// Replay the packs in this folder [default: packs as `vectors` writes them, made for the occasion]
     #[arg(long, value_name = "DIR", conflicts_with_all = ["config", "beats", "seed"])]
     packs: Option<PathBuf>,
-    /// How to replay, several with commas
+    /// Ways to replay, several with commas
     #[arg(
         long = "with",
         value_enum,

@@ -25,7 +25,7 @@ pub(super) struct SynthArgs {
     /// Units and systems (see `wheatstone list`); none means all
     #[arg(value_name = "TARGET", value_parser = parse_target)]
     targets: Vec<Target>,
-    /// What to synthesise for, several with commas
+    /// Technologies to synthesise for, several with commas
     #[arg(long, value_enum, value_delimiter = ',', default_value = "gates")]
     tech: Vec<TechChoice>,
     /// Named set of build parameters [default: each of the three]

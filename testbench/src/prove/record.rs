@@ -114,8 +114,8 @@ impl Record {
     }
 
     /// Properties that are proved for less than the record says, a line each; also those that are not in it.
-    /// Where fewer clocks were tried than for the record, their number does not count. Clocks that are tried at
-    /// the end, one property after the other, depend on how fast the processor is, and do not count either.
+    /// If fewer cycles were tried than for the record, their number does not count. Cycles that are tried at the end,
+    /// one property after the other, depend on the speed of the processor, and do not count either.
     pub fn faults(&self, proofs: &[Proved], extent: Extent) -> Vec<String> {
         let worth = |verdict: Verdict| match (verdict, extent) {
             (Verdict::Fails(_), _) => (0, 0),

@@ -99,7 +99,7 @@ fn table(fields: &[Field]) -> Table {
 pub struct Sums {
     pub term: Table,
     pub sum: Table,
-    /// What the second adder of the chain gets and sends.
+    /// Beats into and out of the second adder of the chain.
     pub second_term: Table,
     pub second_sum: Table,
     pub error: u64,
