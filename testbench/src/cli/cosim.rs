@@ -1,7 +1,7 @@
 //! `wheatstone cosim`.
 
 use super::builder::builder;
-use super::failure::{Failure, BAD_INPUT, MISMATCH, OK};
+use super::failure::{Failure, MISMATCH, OK};
 use super::folders::output_folder;
 use super::ignored::refuse;
 use super::options::{builtin_names, parse_target, Common, Stimulus};
@@ -119,51 +119,52 @@ pub(super) fn run(args: &CosimArgs) -> Result<u8, Failure> {
     };
     let console = Console::new();
     let builder = builder(is_terminal())?;
-    let entries = regression::run(&plan, &builder, &|event| console.tell(event))?;
+    let mut entries = regression::run(&plan, &builder, &|event| console.tell(event))?;
     console.finish();
     say!("{}", regression::table(&entries).trim_end());
     let command = command_line(&arguments);
-    let mut errors: Vec<String> = entries.iter().filter_map(unshown).collect();
+    let mut errors = write(args, &entries, &command, &out);
     errors.extend(entries.iter().filter_map(uncompared));
-    errors.extend(write(args, &entries, &command, &out).err().map(|error| error.told()));
-    let mut failures = entries.iter().filter_map(|e| e.failure.as_ref()).peekable();
-    let status = match (failures.peek(), errors.is_empty()) {
-        (Some(_), _) => MISMATCH,
-        (None, false) => BAD_INPUT,
-        (None, true) => OK,
-    };
-    failures.for_each(|failure| say!("\nMISMATCH\n{failure}"));
-    errors.iter().for_each(|error| tell!("error: {error}"));
-    Ok(status)
+    for entry in &mut entries {
+        let error = entry.waves_error.take();
+        errors.extend(error.map(|error| Failure::Waves(entry.title(), error)));
+    }
+    let failures: Vec<_> = entries.iter().filter_map(|entry| entry.failure.as_ref()).collect();
+    failures.iter().for_each(|failure| say!("\nMISMATCH\n{failure}"));
+    errors.iter().for_each(|error| tell!("error: {}", error.told()));
+    Ok(status(!failures.is_empty(), &errors))
+}
+
+/// The exit status: that of a mismatch, or else the worst of what could not be done.
+fn status(differs: bool, errors: &[Failure]) -> u8 {
+    match differs {
+        true => MISMATCH,
+        false => errors.iter().map(Failure::status).max().unwrap_or(OK),
+    }
 }
 
 /// Says of a case that nothing in it was compared.
-fn uncompared(entry: &Entry) -> Option<String> {
-    let what = || format!("{} {}: nothing was compared", entry.target.name(), entry.name);
+fn uncompared(entry: &Entry) -> Option<Failure> {
+    let what = || Failure::Input(format!("{}: nothing was compared", entry.title()));
     entry.is_vain().then(what)
 }
 
-/// The error of waveforms that were asked for and are not there.
-fn unshown(entry: &Entry) -> Option<String> {
-    let error = entry.waves_error.as_ref()?;
-    Some(format!("waveforms of {} {}: {error}", entry.target.name(), entry.name))
-}
-
-/// Writes reports and pictures.
-fn write(args: &CosimArgs, entries: &[Entry], command: &str, out: &Path) -> Result<(), Failure> {
-    if let Some(file) = &args.json {
-        files::write(file, regression::json(entries, command).as_bytes())?;
-    }
-    if let Some(file) = &args.junit {
+/// Writes reports and pictures; what could not be written keeps no other from being so.
+fn write(args: &CosimArgs, entries: &[Entry], command: &str, out: &Path) -> Vec<Failure> {
+    let json =
+        |file: &PathBuf| Ok(files::write(file, regression::json(entries, command).as_bytes())?);
+    let junit = |file: &PathBuf| {
         let xml = regression::junit(entries).map_err(|error| Failure::Input(error.to_string()))?;
-        files::write(file, xml.as_bytes())?;
-    }
-    for entry in entries {
+        Ok(files::write(file, xml.as_bytes())?)
+    };
+    let shown = |entry: &Entry| {
         for file in pictures(entry, out)? {
             say!("image {}", printable_path(&file));
         }
-    }
-    Ok(())
+        Ok(())
+    };
+    let reports = args.json.iter().map(json).chain(args.junit.iter().map(junit));
+    reports.chain(entries.iter().map(shown)).filter_map(Result::err).collect()
 }
 
 /// The targets that are run.
@@ -301,5 +302,34 @@ impl Console {
             bar.finish_and_clear();
         }
         turn(None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::failure::{BAD_INPUT, UNFINISHED};
+    use super::*;
+    use crate::regression::RegressionError;
+    use std::io;
+    use wheatstone_golden::files::WriteError;
+
+    #[test]
+    fn the_worst_of_what_could_not_be_done_is_the_status() {
+        let unwritten = |kind: io::ErrorKind| {
+            Failure::Write(WriteError { file: "report".into(), source: kind.into() })
+        };
+        let waves = |kind: io::ErrorKind| {
+            let error = RegressionError::File { path: "x.fst".into(), source: kind.into() };
+            Failure::Waves("filter random".into(), error)
+        };
+        let (full, held) = (io::ErrorKind::StorageFull, io::ErrorKind::TimedOut);
+        assert_eq!(status(false, &[]), OK);
+        assert_eq!(status(false, &[unwritten(full)]), BAD_INPUT);
+        assert_eq!(status(false, &[unwritten(held), unwritten(full)]), UNFINISHED);
+        assert_eq!(status(false, &[unwritten(full), waves(held)]), UNFINISHED);
+        assert_eq!(status(true, &[unwritten(held)]), MISMATCH);
+        let told = waves(full).told();
+        assert!(told.starts_with("waveforms of filter random: x.fst: "), "{told}");
+        assert!(told.ends_with("make room on that disk and try again"), "{told}");
     }
 }

@@ -61,6 +61,9 @@ pub(super) enum Failure {
     Tool(#[from] ToolError),
     #[error(transparent)]
     Regression(#[from] RegressionError),
+    /// Waveforms of a case that was named.
+    #[error("waveforms of {0}: {1}")]
+    Waves(String, #[source] RegressionError),
     #[error(transparent)]
     Generate(#[from] GenerateError),
     #[error(transparent)]
@@ -101,6 +104,7 @@ impl Failure {
                 _ => BAD_INPUT,
             },
             Failure::Regression(error)
+            | Failure::Waves(_, error)
             | Failure::Cover(CoverError::Regression(error))
             | Failure::Baseline(BaselineError::Regression(error))
             | Failure::Mutation(MutationError::Regression(error)) => match error {

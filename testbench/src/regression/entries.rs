@@ -38,7 +38,7 @@ fn try_case(
     } else if ground.plan.waves == Waves::Always && entry.runs == 1 {
         match attempt.waves(0..=HEAD, None, again) {
             Ok(file) => entry.waves = Some(file),
-            Err(error) => entry.waves_error = Some(error.to_string()),
+            Err(error) => entry.waves_error = Some(error),
         }
     }
     Ok(())

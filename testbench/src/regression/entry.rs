@@ -1,5 +1,6 @@
 //! A result of the regression.
 
+use super::error::RegressionError;
 use super::failure::Failure;
 use super::run::Ran;
 use std::path::PathBuf;
@@ -31,7 +32,7 @@ pub struct Entry {
     /// Waveforms written on request.
     pub waves: Option<PathBuf>,
     /// The reason why there are none.
-    pub waves_error: Option<String>,
+    pub waves_error: Option<RegressionError>,
 }
 
 /// The figures of a scene.
@@ -65,6 +66,11 @@ impl Entry {
             waves: None,
             waves_error: None,
         }
+    }
+
+    /// Target and case.
+    pub fn title(&self) -> String {
+        format!("{} {}", self.target.name(), self.name)
     }
 
     /// True if all that was compared is equal.

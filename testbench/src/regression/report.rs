@@ -111,7 +111,7 @@ struct JsonEntry<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     waves: Option<&'a PathBuf>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    waves_error: Option<&'a String>,
+    waves_error: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -152,7 +152,7 @@ pub fn json(entries: &[Entry], command: &str) -> String {
             scene: e.scene.as_ref().map(scene),
             failure: e.failure.as_ref(),
             waves: e.waves.as_ref(),
-            waves_error: e.waves_error.as_ref(),
+            waves_error: e.waves_error.as_ref().map(ToString::to_string),
         };
         serde_json::to_value(entry).unwrap_or_default()
     };
