@@ -30,8 +30,8 @@ pub enum Generated {
     Page(Target),
     /// `docs/formal.md`: what is proved.
     Formal,
-    /// `README.md`: what all of them cost.
-    Readme,
+    /// `docs/cost.md`: gates, LUTs and clocks of all targets.
+    Cost,
     /// `docs/mutation.md`: the scores.
     Mutation,
     /// `docs/theory.md`: how many polygons are derived, how far pictures are from direct rendering.
@@ -71,7 +71,7 @@ impl Generated {
         let pages = Target::ALL.into_iter().map(Generated::Page);
         let rest = [
             Generated::Formal,
-            Generated::Readme,
+            Generated::Cost,
             Generated::Mutation,
             Generated::Theory,
             Generated::Verification,
@@ -85,7 +85,7 @@ impl Generated {
             Generated::Header => "rtl/sam_formats.vh".into(),
             Generated::Page(target) => format!("docs/{}.md", target.name()),
             Generated::Formal => "docs/formal.md".into(),
-            Generated::Readme => "README.md".into(),
+            Generated::Cost => "docs/cost.md".into(),
             Generated::Mutation => "docs/mutation.md".into(),
             Generated::Theory => "docs/theory.md".into(),
             Generated::Verification => "docs/verification.md".into(),
@@ -111,7 +111,7 @@ impl Generated {
                 let text = self.between(&text, "time", &record.time())?;
                 self.between(&text, "netlists", &record.netlist_table())
             }
-            Generated::Readme => {
+            Generated::Cost => {
                 self.between(present, "synthesis", &Record::read(workspace)?.overview())
             }
             Generated::Mutation => {

@@ -41,7 +41,7 @@ fn said<T>(result: Result<T, impl Display>) -> Result<(), String> {
 const PAGES: [Generated; 5] = [
     Generated::Page(Target::Stereo),
     Generated::Formal,
-    Generated::Readme,
+    Generated::Cost,
     Generated::Mutation,
     Generated::Verification,
 ];

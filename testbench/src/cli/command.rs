@@ -65,8 +65,8 @@ pub(super) enum Command {
     List(info::ListArgs),
     /// Show which tools are found and how to install what is missing
     Doctor(info::DoctorArgs),
-    /// Write rtl/sam_formats.vh and the tables of docs/ and README.md anew from the golden model's
-    /// definitions and the records of synth, baseline, prove, mutate, cover and replay
+    /// Write rtl/sam_formats.vh and the tables of docs/ anew from the golden model's definitions and
+    /// the records of synth, baseline, prove, mutate, cover and replay
     Generate(generate::GenerateArgs),
 }
 

@@ -178,7 +178,7 @@ impl Record {
         values.any(|value| !optional || value.is_some_and(|value| value > 0.0))
     }
 
-    /// The table of the README: gates in the paper's configuration, chips in the default one.
+    /// The table of `docs/cost.md`: gates in the paper's configuration, chips in the default one.
     pub fn overview(&self) -> String {
         let mut text = String::from("\n");
         let gates = Tech::Gates.figures().iter().map(|figure| figure.heading().to_owned());
@@ -199,7 +199,7 @@ impl Record {
                     format!("{}, {}", entry.shown(Figure::Luts), entry.shown(Figure::Fmax))
                 })
             });
-            let page = format!("[{0}](docs/{0}.md)", target.name());
+            let page = format!("[{0}]({0}.md)", target.name());
             row(&mut text, &page, [paper].into_iter().chain(gates).chain(chips));
         }
         text
