@@ -66,14 +66,14 @@ fn wrong_polygons_are_counted() {
     assert!(measured.quality.ids > 0);
 }
 
-/// The readme's table of scenes.
+/// The table of scenes on the page that compares the methods.
 #[test]
-fn the_readme_tells_what_is_derived_of_each_scene() {
-    let readme = include_str!("../README.md");
+fn the_page_of_comparison_has_the_beats_of_each_scene() {
+    let page = include_str!("../docs/comparison.md");
     let grouped = |n: u64| Grouped(n).to_string();
     for scene in ["village", "office", "teapot", "atoms"] {
         let start = format!("| `{scene}`");
-        let line = readme.lines().find(|line| line.starts_with(&start)).expect(scene);
+        let line = page.lines().find(|line| line.starts_with(&start)).expect(scene);
         let prepared = Prepared::new(open(scene, None, None).expect("built in")).expect("legal");
         let beats = |n: usize| (METHODS[n].draw)(&prepared).expect("it is drawn").work.beats;
         let [pass, derived] = [beats(0), beats(6)];
