@@ -1,5 +1,5 @@
 //! The acceptance and regression tests of the workspace, one file a unit or feature, in one program: it is
-//! linked once, and all its tests run side by side. One file alone: `cargo test -p wheatstone-tests filter::`.
+//! linked once, and all its tests run side by side. One file alone: `cargo test -p wheatstone-tests hybrid::`.
 
 mod baseline;
 mod bsp;
