@@ -57,8 +57,15 @@ pub fn all(program: &Path, workspace: &Path, folder: &Path) -> io::Result<Vec<Ki
     ];
     let pictures = [
         ("png", png()?),
+        ("png", png_with_palette()?),
         ("jpg", jpeg()?),
         ("bmp", BMP.into()),
+        ("bmp", bmp_with_palette(1, 0, &[0x40, 0, 0, 0, 0x80, 0, 0, 0])),
+        ("bmp", bmp_with_palette(4, 0, &[0x10, 0, 0, 0, 0x01, 0, 0, 0])),
+        ("bmp", bmp_with_palette(8, 0, &[1, 0, 0, 0, 0, 1, 0, 0])),
+        // A run and, of at least three, single pixels; ends of lines and of the picture.
+        ("bmp", bmp_with_palette(8, 1, &[2, 1, 0, 0, 0, 3, 1, 0, 1, 0, 0, 1])),
+        ("bmp", bmp_with_palette(4, 2, &[2, 0x11, 0, 0, 0, 3, 0x10, 0x10, 0, 1])),
         ("tga", TGA.into()),
         ("webp", WEBP.into()),
     ];
@@ -115,6 +122,28 @@ fn scene(
 
 fn png() -> io::Result<Vec<u8>> {
     encoded(image::ImageFormat::Png)
+}
+
+/// A picture of two colours.
+fn png_with_palette() -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Four);
+    encoder.set_palette(vec![255, 0, 0, 0, 255, 0]);
+    let mut writer = encoder.write_header().map_err(io::Error::other)?;
+    writer.write_image_data(&[0x10, 0x01]).map_err(io::Error::other)?;
+    writer.finish().map_err(io::Error::other)?;
+    Ok(bytes)
+}
+
+/// A picture of two colours, of 2 x 2 pixels.
+fn bmp_with_palette(bits: u8, compression: u8, data: &[u8]) -> Vec<u8> {
+    let mut bytes = b"BM\0\0\0\0\0\0\0\0\x3e\0\0\0\x28\0\0\0".to_vec();
+    bytes.extend([2, 0, 0, 0, 2, 0, 0, 0, 1, 0, bits, 0, compression, 0, 0, 0]);
+    bytes.extend([data.len() as u8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0]);
+    bytes.extend([0, 0, 255, 0, 0, 255, 0, 0]);
+    [&bytes, data].concat()
 }
 
 fn jpeg() -> io::Result<Vec<u8>> {

@@ -26,6 +26,8 @@ pub mod formats;
 #[cfg(feature = "std")]
 pub mod frame;
 #[cfg(feature = "std")]
+mod guard;
+#[cfg(feature = "std")]
 pub mod header;
 pub mod interface;
 #[cfg(feature = "std")]

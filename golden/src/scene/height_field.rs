@@ -17,6 +17,7 @@ use super::place::{place, Placement, Viewpoint};
 use super::rig::Rig;
 use super::vector::{turn, unit, Vec3};
 use super::{Colours, Lighting, Material, Mesh, Scene};
+use crate::guard::guarded;
 use crate::work::Real;
 use std::path::Path;
 
@@ -226,7 +227,12 @@ pub fn is_grid(extension: &str) -> bool {
 pub fn load(file: &Path) -> Result<HeightGrid, SceneError> {
     let _reading = reading(file);
     let picture = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
-    Ok(if picture { read_png(file, &read(file)?)? } else { read_grid(file, &read_text(file)?)? })
+    if !picture {
+        return Ok(read_grid(file, &read_text(file)?)?);
+    }
+    let bytes = read(file)?;
+    let failed = |cause| InputError::new(file, None, "file", "an undamaged PNG picture", cause);
+    Ok(guarded(|| read_png(file, &bytes)).map_err(failed)??)
 }
 
 /// Reads a PNG picture; `file` is its name in messages.

@@ -37,9 +37,14 @@ fn png(bytes: &[u8]) -> Option<(usize, u8)> {
     Some((colours, highest))
 }
 
-/// As [`png`], of a BMP picture that says how many colours it has.
+/// As [`png`], of a BMP picture that says how many colours it has. Numbers of other than 8 bits, and compressed ones,
+/// are not looked at: the decoder cannot give them.
 fn bmp(bytes: &[u8]) -> Option<(usize, u8)> {
     let word = |at: usize| Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
+    let (bits, compression) = (word(26)? >> 16, word(30)?);
+    if (bits, compression) != (8, 0) {
+        return None;
+    }
     // The oldest header does not say it.
     let colours = word(46).filter(|_| word(14).is_some_and(|header| header >= 40))?;
     let mut decoder = BmpDecoder::new(Cursor::new(bytes)).ok()?;
@@ -95,5 +100,35 @@ mod tests {
         bytes[46] = 3;
         let found = damage(&bytes, ImageFormat::Bmp).expect("damage");
         assert!(found.contains("has colour 3, counted from 0, of 3 in"), "{found}");
+    }
+
+    /// A picture of two colours; of 2 x 2 pixels, or of 8 x 2 if it has one bit for each.
+    fn bmp_with(bits: u8, compression: u8, data: &[u8]) -> Vec<u8> {
+        let width = if bits == 1 { 8 } else { 2 };
+        let mut bytes = b"BM\0\0\0\0\0\0\0\0\x3e\0\0\0\x28\0\0\0".to_vec();
+        bytes.extend([width, 0, 0, 0, 2, 0, 0, 0, 1, 0, bits, 0, compression, 0, 0, 0]);
+        bytes.extend([data.len() as u8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0]);
+        bytes.extend([0, 0, 255, 0, 0, 255, 0, 0]);
+        [&bytes, data].concat()
+    }
+
+    #[test]
+    fn bmp_pictures_of_every_kind_of_palette_are_undamaged() {
+        const RLE: [u8; 8] = [2, 0, 0, 0, 2, 1, 0, 1];
+        let kinds: [(u8, u8, &[u8]); 5] = [
+            (1, 0, &[0x55, 0, 0, 0, 0xaa, 0, 0, 0]),
+            (4, 0, &[0x10, 0, 0, 0, 0x01, 0, 0, 0]),
+            (8, 0, &[1, 0, 0, 0, 0, 1, 0, 0]),
+            (8, 1, &RLE),
+            (4, 2, &RLE),
+        ];
+        for (bits, compression, data) in kinds {
+            let bytes = bmp_with(bits, compression, data);
+            let picture = image::load_from_memory(&bytes).expect("a picture");
+            assert_eq!(picture.height(), 2);
+            assert_eq!(damage(&bytes, ImageFormat::Bmp), None, "{bits} bits, {compression}");
+        }
+        let beyond = bmp_with(8, 0, &[1, 2, 0, 0, 0, 1, 0, 0]);
+        assert!(damage(&beyond, ImageFormat::Bmp).is_some());
     }
 }

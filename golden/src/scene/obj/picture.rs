@@ -3,6 +3,7 @@
 use super::super::error::{read, reading};
 use super::palette;
 use crate::formats::Rgba;
+use crate::guard::guarded;
 use crate::texture::Texture;
 use image::{ImageFormat, ImageReader, Limits, RgbImage, RgbaImage};
 use std::collections::HashMap;
@@ -53,7 +54,7 @@ impl Pictures {
         let bytes = read(file).map_err(|error| error.to_string())?;
         let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
         let is_tga = extension.as_deref() == Some("tga");
-        let Picture { texels, damage } = decode(&bytes, is_tga)?;
+        let Picture { texels, damage } = guarded(|| decode(&bytes, is_tga))??;
         let sum = self.texels + texels.len() / 4;
         if sum > TEXELS_LIMIT {
             return Err(format!("more than {TEXELS_LIMIT} texels in all textures"));
