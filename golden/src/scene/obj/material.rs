@@ -267,12 +267,14 @@ impl Definition {
         };
         let diffuse = self.diffuse.unwrap_or([0.8; 3]);
         let illumination = self.illumination.unwrap_or(2.0);
+        let exponent = self.exponent.unwrap_or(32.0);
         let specular = self.specular.filter(|_| illumination >= 2.0).unwrap_or_default();
+        let specular = scale(specular, gloss(exponent));
         let material = Material {
             // Some programs write black and mean the texture alone.
             diffuse: if texture.is_some() && diffuse == [0.0; 3] { [1.0; 3] } else { diffuse },
             specular,
-            exponent: self.exponent.unwrap_or(32.0).clamp(1.0, 10_000.0).round() as u32,
+            exponent: exponent.clamp(1.0, 10_000.0).round() as u32,
             emission: self.emission.unwrap_or_default(),
             reflection: if illumination < 3.0 { [0.0; 3] } else { scale(specular, 0.5) },
             alpha,
@@ -280,6 +282,12 @@ impl Definition {
         };
         (material, texture.map(|(_, pattern)| pattern))
     }
+}
+
+/// Part of `Ks` that is left with an exponent of highlights. Programs write 0 with a bright `Ks` for what is rough;
+/// a highlight of exponent 1 would cover and bleach it.
+fn gloss(exponent: f64) -> f64 {
+    ((exponent - 1.0) / 9.0).clamp(0.0, 1.0)
 }
 
 /// Replaces a value if there is a new one.
@@ -324,10 +332,11 @@ fn part(statement: &Statement, warnings: &mut Warnings) -> Option<f64> {
 fn map(statement: &Statement, warnings: &mut Warnings) -> Option<Map> {
     let mut rest = statement.rest;
     let mut pattern = Pattern { scale: [1.0; 2], offset: [0.0; 2] };
-    while let Some((option, after)) = option(rest) {
+    while let Some((written, after)) = option(rest) {
         rest = after;
         let mut numbers = Vec::new();
-        match option {
+        let option = written.to_ascii_lowercase();
+        match option.as_str() {
             "-s" | "-o" | "-t" => {
                 // One to three, but the name may be a number too.
                 while let Some((value, after)) = next_number(rest).filter(|_| numbers.len() < 3) {
@@ -338,14 +347,14 @@ fn map(statement: &Statement, warnings: &mut Warnings) -> Option<Map> {
             "-mm" => rest = skipped(rest, 2),
             _ => rest = skipped(rest, 1),
         }
-        match (option, &numbers[..]) {
+        match (option.as_str(), &numbers[..]) {
             ("-s", &[u]) => pattern.scale = [u, 1.0],
             ("-s", &[u, v, ..]) => pattern.scale = [u, v],
             ("-o", &[u]) => pattern.offset = [u, 0.0],
             ("-o", &[u, v, ..]) => pattern.offset = [u, v],
             _ => {
                 let Statement { file, line, text, .. } = *statement;
-                warnings.add(file, line, text, "an option that is not followed", option);
+                warnings.add(file, line, text, "an option that is not followed", written);
             }
         }
     }

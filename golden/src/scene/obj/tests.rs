@@ -40,6 +40,7 @@ fn scale_and_offset_of_a_picture_are_followed_and_other_options_skipped() {
         ("t.bmp", [1.0, 1.0], [0.0, 0.0], false),
         ("-s 2 3 1 t.bmp", [2.0, 3.0], [0.0, 0.0], false),
         ("-s 2 -o 0.5 0.25 t.bmp", [2.0, 1.0], [0.5, 0.25], false),
+        ("-S 2 3 1 -O 0.5 T.BMP", [2.0, 3.0], [0.5, 0.0], false),
         ("-o .5 t.bmp", [1.0, 1.0], [0.5, 0.0], false),
         ("-mm 0 1 -clamp on -s 2 2 -blendu off \"t.bmp\"", [2.0, 2.0], [0.0, 0.0], true),
         ("-t 1 1 1 -texres 512 -imfchan r t.bmp", [1.0, 1.0], [0.0, 0.0], true),
@@ -72,6 +73,23 @@ fn colours_of_some_vertices_leave_the_others_white() {
     let (scene, _) = loaded(&[("m.obj", text.as_bytes()), ("m.mtl", b"newmtl m\nKd 0 1 0\n")]);
     assert_eq!(scene.meshes[1].colours, Colours::Material);
     assert_eq!(scene.materials[scene.meshes[1].material as usize].diffuse, [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn a_material_is_less_bright_the_lower_its_exponent_is() {
+    let specular = |exponent: &str| {
+        let material = format!("newmtl m\nKs 0.8 0.8 0.8\n{exponent}\n");
+        let text = format!("mtllib m.mtl\n{SQUARE}usemtl m\nf 1 2 3\n");
+        let files = [("m.obj", text.as_bytes()), ("m.mtl", material.as_bytes())];
+        let (scene, warnings) = loaded(&files);
+        assert!(warnings.is_empty(), "{warnings:?}");
+        scene.materials[0].specular[0]
+    };
+    let cases =
+        [("Ns 0", 0.0), ("Ns -1", 0.0), ("Ns 1", 0.0), ("Ns 5.5", 0.4), ("Ns 10", 0.8), ("", 0.8)];
+    for (exponent, expected) in cases {
+        assert_eq!(specular(exponent), expected, "{exponent}");
+    }
 }
 
 #[test]
