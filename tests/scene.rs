@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use wheatstone_golden::config::Config;
-use wheatstone_golden::formats::{Eye, Formats, DEPTH_MAX};
+use wheatstone_golden::formats::{Eye, Formats, Rgba, DEPTH_MAX};
 use wheatstone_golden::projection::{Partition, Piecewise, Projection};
 use wheatstone_golden::scene::builtin::scene as builtin;
 use wheatstone_golden::scene::vector::Vec3;
@@ -10,6 +10,7 @@ use wheatstone_golden::scene::{
     json, Camera, Colours, Cull, Geometry, Material, Mesh, Options, Rig, Scene,
 };
 use wheatstone_golden::setup::{Eyes, Polygon, Vertex};
+use wheatstone_golden::texture::Texture;
 
 const WIDE: Formats = Formats::new(&Config::DEFAULT);
 const NARROW: Formats = Formats::new(&Config::PAPER);
@@ -337,6 +338,24 @@ fn where_nothing_is_drawn_the_counts_say_why() {
         let said = counts.nothing().unwrap_or_default();
         assert!(said.starts_with(reason) && said.contains("; try: "), "{said}");
     }
+    // Transparent all over, by the material or by a picture.
+    let mut scene = triangles(at(0.0).to_vec(), rig(1.0, 64.0, d));
+    assert_eq!(geometry(&scene).counts.nothing(), None);
+    let mut clear = scene.clone();
+    clear.materials[0].alpha = 0.0;
+    scene.materials[0].texture = Some(0);
+    scene.meshes[0].texture_coordinates = vec![[0.0; 2], [1.0; 2], [2.0, 0.0]];
+    scene.textures =
+        vec![Texture { width: 2, height: 1, texels: vec![Rgba([9, 9, 9, 0]), Rgba([9; 4])] }];
+    assert_eq!(geometry(&scene).counts.nothing(), None);
+    scene.textures[0].texels[1] = Rgba::default();
+    for scene in [clear, scene] {
+        let said = geometry(&scene).counts.nothing().unwrap_or_default();
+        assert!(
+            said.starts_with("1 fully transparent; try: give its material a d above"),
+            "{said}"
+        );
+    }
     // Both reasons, the help against the more frequent one.
     let mut clockwise = at(0.0);
     clockwise.swap(1, 2);
@@ -394,8 +413,8 @@ fn texture_coordinates_keep_near_zero_and_inverses_near_one() {
         vec![[0.0, 0.0, 0.0], [10.0, 0.0, 640.0], [0.0, 10.0, 1920.0]],
         rig(1.0, 64.0, 640.0),
     );
-    let texels = vec![Default::default(); 64 * 32];
-    scene.textures = vec![wheatstone_golden::texture::Texture { width: 64, height: 32, texels }];
+    let texels = vec![Rgba([255; 4]); 64 * 32];
+    scene.textures = vec![Texture { width: 64, height: 32, texels }];
     scene.materials[0].texture = Some(0);
     scene.meshes[0].texture_coordinates = vec![[100.25, -7.0], [101.5, -6.5], [100.0, -7.25]];
     let polygon = &geometry(&scene).polygons[0];

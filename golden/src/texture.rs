@@ -29,6 +29,11 @@ impl Texture {
         self.texels.iter().any(|texel| texel.0[3] != 255)
     }
 
+    /// True if no texel shows anything.
+    pub fn is_invisible(&self) -> bool {
+        self.texels.iter().all(|texel| texel.0[3] == 0)
+    }
+
     fn texel(&self, column: i64, row: i64) -> Rgba {
         let column = column.rem_euclid(self.width.into());
         let row = row.rem_euclid(self.height.into());

@@ -102,6 +102,8 @@ pub(super) struct Builder<'a> {
     size: [i64; 2],
     /// True for each texture of the scene that is translucent.
     translucent_textures: Vec<bool>,
+    /// True for each that shows nothing.
+    invisible_textures: Vec<bool>,
     opaque: Vec<Polygon>,
     translucent: Vec<Polygon>,
     counts: Counts,
@@ -122,6 +124,7 @@ impl<'a> Builder<'a> {
             band: size.map(|n| [-guard, n + guard]),
             size,
             translucent_textures: scene.textures.iter().map(Texture::is_translucent).collect(),
+            invisible_textures: scene.textures.iter().map(Texture::is_invisible).collect(),
             opaque: Vec::new(),
             translucent: Vec::new(),
             counts: Counts::default(),
@@ -369,9 +372,16 @@ impl<'a> Builder<'a> {
             let [Rgba(left), Rgba(right)] = v.colour;
             left.iter().zip(right).any(|(l, r)| l.abs_diff(r) > self.options.specular_threshold)
         });
+        let alpha = |value: u8| {
+            polygon.vertices.iter().flat_map(|v| v.colour).all(|colour| colour.0[3] == value)
+        };
+        let hides = |texture: u32| self.invisible_textures[texture as usize];
+        if alpha(0) || polygon.texture.is_some_and(hides) {
+            self.counts.invisible += 1;
+            return;
+        }
         let shows_through = |texture: u32| self.translucent_textures[texture as usize];
-        let opaque = polygon.vertices.iter().all(|v| v.colour[0].0[3] == 255)
-            && !polygon.texture.is_some_and(shows_through);
+        let opaque = alpha(255) && !polygon.texture.is_some_and(shows_through);
         if opaque { &mut self.opaque } else { &mut self.translucent }.push(polygon);
     }
 

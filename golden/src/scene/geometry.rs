@@ -70,11 +70,13 @@ pub struct Counts {
     pub edge_on: usize,
     /// Triangles, faces and pieces of them that are no larger than a subpixel.
     pub small: usize,
+    /// Triangles, faces and pieces of them that are fully transparent.
+    pub invisible: usize,
 }
 
 impl Counts {
     /// Number of polygons left out for each reason, and what helps against it.
-    fn reasons(&self) -> [(usize, String, &'static str); 9] {
+    fn reasons(&self) -> [(usize, String, &'static str); 10] {
         const MOVE: &str = "move it, or change near and far, with a rig file";
         let empty = match self.first_empty {
             Some(id) => format!("without area (polygon {id} is the first)"),
@@ -84,6 +86,11 @@ impl Counts {
             (self.empty, empty, "give it corners that do not lie on a line"),
             (self.edge_on, "seen edge-on".into(), "turn it with a rig file"),
             (self.small, "smaller than a subpixel".into(), "enlarge it with a rig file"),
+            (
+                self.invisible,
+                "fully transparent".into(),
+                "give its material a d above 0, or a picture that is not transparent all over",
+            ),
             (self.behind, "behind the eyes".into(), MOVE),
             (self.nearer, "nearer than the rig's near plane".into(), MOVE),
             (self.farther, "farther than the rig's far plane".into(), MOVE),
