@@ -171,6 +171,11 @@ fn broken_meshes_are_refused_by_line_and_field() {
         ("f -4 -3 -2", "f 0 1 2", &["mesh.obj:12: f", "found 0"]),
         ("f -4 -3 -2", "f -5 1 2", &["mesh.obj:12: f: expected an index of the 4 vertices so far"]),
         ("f -4 -3 -2", "f 1 2 5000000000", &["mesh.obj:12: f", "found 5000000000"]),
+        (
+            "f -4 -3 -2",
+            "f 1 2 99999999999999999999",
+            &["mesh.obj:12: f: expected an index of the 4 vertices so far, found 99999999999999999999, which is too large"],
+        ),
         ("f -4 -3 -2", "f 1/1/1/1 2 3", &["mesh.obj:12: f: expected vertex/texture/normal"]),
         ("f -4 -3 -2", "f /1 2 3", &["mesh.obj:12: f: expected the index of a vertex"]),
         ("f -4 -3 -2", "f 1.5 2 3", &["mesh.obj:12: f: expected whole numbers", "1.5"]),
@@ -185,10 +190,31 @@ fn broken_meshes_are_refused_by_line_and_field() {
             assert!(error.contains(text), "{to}: “{error}” does not say “{text}”");
         }
     }
-    for text in ["", "v 0 0 0\nv 1 0 0\n", "<html>\n", "\0\u{1}\u{2}"] {
+    for text in ["", "v 0 0 0\nv 1 0 0\n", "# <html>\n"] {
         let error = load(&folder.put("empty.obj", text)).expect_err(text);
         assert!(error.contains("empty.obj: f: expected at least one face, found "), "{error}");
     }
+    for (text, said) in [
+        ("# a\nOFF\n3 1 0\n", "empty.obj:2: off: expected a statement of OBJ files, found another"),
+        ("v 0 0 0\nface 1\n", "empty.obj:2: face: expected a statement"),
+        ("\0\u{1}\u{2}", "empty.obj:1: \u{fffd}\u{fffd}\u{fffd}: expected a statement"),
+        ("\n <!DOCTYPE html>\n", "empty.obj:1: file: expected an OBJ mesh, found an HTML page"),
+        ("<HTML>\nv x\n", "found an HTML page; download the file itself"),
+        ("version https://git-lfs.github.com/spec/v1\n", "found a pointer of Git LFS"),
+        ("ply\r\nformat ascii 1.0\n", "found a PLY mesh; save it as OBJ"),
+        ("solid a\nfacet normal 0 0 1\n", "found an STL mesh; save it as OBJ"),
+    ] {
+        let error = load(&folder.put("empty.obj", text)).expect_err(text);
+        assert!(error.contains(said), "{error}");
+    }
+    let path = folder.put("packed.obj", "");
+    fs::write(&path, b"\x1f\x8b\x08\0\0v\n").expect("written");
+    assert!(load(&path)
+        .expect_err("packed")
+        .contains("packed.obj:1: file: expected an OBJ mesh, found a gzip"));
+    // What can be read is read.
+    load(&folder.put("solid.obj", "solid a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
+        .expect("a mesh");
     for (line, said) in [
         ("l 1", "l: expected at least two points, found 1, and the file has nothing else"),
         (
@@ -228,6 +254,7 @@ fn what_is_not_followed_is_a_warning_with_file_and_line() {
         ("vn 0 0 1", "vn 0 -nan(ind) 1", "mesh.obj:9: vn 0 -nan(ind) 1: not finite"),
         ("f -4 -3 -2", "f 1 2", "mesh.obj:12: f 1 2: fewer than three corners"),
         ("f -4 -3 -2", "f 1/3 2/1 3/1", "mesh.obj:12: f: no such texture point"),
+        ("f -4 -3 -2", "f 1/99999999999999999999 2/1 3/1", "mesh.obj:12: f: no such texture"),
         ("f -4 -3 -2", "f 1/0 2/1 3/1", "mesh.obj:12: f: no such texture point"),
         ("f -4 -3 -2", "f 1//2 2//1 3//1", "mesh.obj:12: f: no such normal"),
         ("f -4 -3 -2", "f 1/1 2 3", "mesh.obj:12: f: texture points at some corners alone"),
@@ -427,6 +454,15 @@ fn broken_rig_files_are_refused() {
         (r#"{"width": 4000, "height": 9}"#, &["width", "4000"]),
         ("{\n\n\"viewing_distance\": 0}", &["rig.json:3: viewing_distance", "found 0"]),
         (r#"{"near": 1, "far": 1}"#, &["far: expected more than near"]),
+        (r#"{"near": 6000}"#, &["rig.json:1: near: expected less than far, which is 6000"]),
+        (
+            r#"{"viewing_distance": 1e-9}"#,
+            &["rig.json:1: viewing_distance: expected one with near, a hundredth of it, a number from 1e-9", "found 0.000000001"],
+        ),
+        (
+            r#"{"viewing_distance": 1e8}"#,
+            &["rig.json:1: viewing_distance: expected one with far, a hundred times it, a number"],
+        ),
         (r#"{"head_tilt": 400}"#, &["head_tilt", "180"]),
         (r#"{"pixels_per_unit": "many"}"#, &["pixels_per_unit", "string"]),
         (r#"{"background": [0, 0, 300]}"#, &["background[2]", "300"]),

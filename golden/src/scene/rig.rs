@@ -95,8 +95,26 @@ impl Rig {
         self.check_planes()
     }
 
+    /// Refuses a viewing distance of which the planes that follow from it are beyond any length.
+    fn check_derived_planes(&self) -> Result<(), RigError> {
+        let projected = self.projection.near(&self.viewing()).is_some();
+        let near = self.near.is_none() && !projected;
+        let far = self.far.is_none() && self.projection.far(&self.viewing()).is_none();
+        for (derived, plane, field, part) in [
+            (near, self.near(), "near", "a hundredth of it"),
+            (far, self.far(), "far", "a hundred times it"),
+        ] {
+            if let (true, Err(error)) = (derived, check_length(field, plane)) {
+                let expected = format!("one with {field}, {part}, {}", error.expected);
+                return Err(RigError::new("viewing_distance", expected, self.viewing_distance));
+            }
+        }
+        Ok(())
+    }
+
     /// Refuses near and far planes with nothing between them that could be projected.
     fn check_planes(&self) -> Result<(), RigError> {
+        self.check_derived_planes()?;
         check_length("near", self.near())?;
         check_length("far", self.far())?;
         // Closer to the eyes, z + d is all rounding.
@@ -104,6 +122,12 @@ impl Rig {
         if self.near() < least {
             let expected = format!("at least a millionth of viewing_distance, {least:e}");
             return Err(RigError::new("near", expected, self.near()));
+        }
+        if let (Some(near), None) = (self.near, self.far) {
+            if self.far() <= near {
+                let expected = format!("less than far, which is {}", self.far());
+                return Err(RigError::new("near", expected, near));
+            }
         }
         if self.far() <= self.near() {
             let expected = format!("more than near, which is {}", self.near());

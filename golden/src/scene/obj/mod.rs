@@ -15,6 +15,7 @@
 
 mod convert;
 mod find;
+mod foreign;
 mod lines;
 mod material;
 mod palette;
@@ -26,12 +27,13 @@ mod tests;
 
 pub use picture::{TEXELS_LIMIT, TEXTURE_LIMIT};
 
-use super::error::{no_text, read, reading, SceneError};
+use super::error::{no_text, read, reading, InputError, SceneError};
 use super::place::Placement;
 use super::warning::Warnings;
 use super::{Lighting, Rig, Scene, DEFAULT_SIZE};
 use crate::text::decode_with_latin1;
 use material::Library;
+use parse::Parsed;
 use picture::Pictures;
 use std::path::Path;
 
@@ -56,9 +58,7 @@ pub fn empty_scene() -> Scene {
 pub fn load(file: &Path, mut scene: Scene, placement: &Placement) -> Result<Scene, SceneError> {
     let mut warnings = Warnings::default();
     let _reading = reading(file);
-    let text = decode_with_latin1(&read(file)?).map_err(|error| no_text(file, error))?;
-    let mut parsed = parse::parse(file, &text, &mut warnings)?;
-    drop(text);
+    let mut parsed = parsed(file, &mut warnings)?;
     let mut library = Library::read(file, &parsed.libraries, &mut warnings);
     let mut pictures = Pictures::default();
     let (materials, used) = (&mut scene.materials, parsed.used());
@@ -69,4 +69,19 @@ pub fn load(file: &Path, mut scene: Scene, placement: &Placement) -> Result<Scen
     let lines = lines::lines(&parsed, &looks, &scene.materials);
     lines::place_with_lines(&mut scene, lines, placement);
     Ok(scene)
+}
+
+/// The statements of a file.
+fn parsed(file: &Path, warnings: &mut Warnings) -> Result<Parsed, SceneError> {
+    let bytes = read(file)?;
+    let kind = foreign::kind(&bytes);
+    let text = decode_with_latin1(&bytes).map_err(|error| no_text(file, error).into());
+    // The largest files are large.
+    drop(bytes);
+    let parsed = text.and_then(|text| parse::parse(file, &text, warnings));
+    // A file that can be read is one whatever it begins with.
+    parsed.map_err(|error| match kind {
+        Some(kind) => InputError::new(file, 1, "file", "an OBJ mesh", kind).into(),
+        None => error,
+    })
 }

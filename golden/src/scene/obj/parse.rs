@@ -5,7 +5,9 @@ use super::super::error::{InputError, SceneError, COORDINATE_LIMIT, CORNER_LIMIT
 use super::super::vector::{unit, Vec3};
 use super::super::warning::Warnings;
 use super::statement::{each, is_one_of, Statement};
+use crate::text::{printable, printable_within};
 use std::collections::HashMap;
+use std::num::{IntErrorKind, ParseIntError};
 use std::path::Path;
 
 /// Statements that are known to change nothing that is drawn here.
@@ -127,8 +129,16 @@ impl Parsed {
 /// Reads an OBJ file's text.
 pub fn parse(file: &Path, text: &str, warnings: &mut Warnings) -> Result<Parsed, SceneError> {
     let (parsed, known) = Default::default();
-    let mut reader =
-        Reader { file, warnings, parsed, material: NONE, known, segments: 0, short: None };
+    let mut reader = Reader {
+        file,
+        warnings,
+        parsed,
+        material: NONE,
+        known,
+        segments: 0,
+        short: None,
+        odd: None,
+    };
     each(file, text, |statement| reader.statement(statement))?;
     reader.finish()
 }
@@ -180,6 +190,13 @@ struct Reader<'a> {
     segments: usize,
     /// The first face or line with too few points to be drawn.
     short: Option<Short>,
+    /// Line and first word of the first statement that is none of OBJ files.
+    odd: Option<(usize, String)>,
+}
+
+/// True if what is no 64-bit number is one of more bits.
+fn is_overflow(error: &ParseIntError) -> bool {
+    matches!(error.kind(), IntErrorKind::PosOverflow | IntErrorKind::NegOverflow)
 }
 
 /// A statement with too few points to be drawn.
@@ -212,7 +229,11 @@ impl Reader<'_> {
             word if is_one_of(NOT_DRAWN, word) => {
                 statement.warn(self.warnings, "not drawn: points, curves, surfaces, other files");
             }
-            _ => statement.warn(self.warnings, "no statement of OBJ files; left out"),
+            word => {
+                let odd = || (statement.line, printable_within(word, 40));
+                self.odd.get_or_insert_with(odd);
+                statement.warn(self.warnings, "no statement of OBJ files; left out");
+            }
         }
         Ok(())
     }
@@ -335,14 +356,19 @@ impl Reader<'_> {
     fn index(&self, statement: &Statement, part: &str, kind: usize) -> Result<u32, InputError> {
         let parsed = &self.parsed;
         let count = [parsed.positions.len(), parsed.texture.len(), parsed.normals.len()][kind];
-        let Ok(n) = part.parse::<i64>() else {
-            return Err(statement.wrong("whole numbers as indices", part));
+        let absolute = match part.parse::<i64>() {
+            Ok(n) if n < 0 => (count as i64).saturating_add(n),
+            Ok(n) => n - 1,
+            // Larger than any.
+            Err(error) if is_overflow(&error) => i64::MAX,
+            Err(_) => return Err(statement.wrong("whole numbers as indices", part)),
         };
-        let absolute = if n < 0 { (count as i64).saturating_add(n) } else { n - 1 };
         match u32::try_from(absolute).ok().filter(|&index| index < AWAY) {
             Some(index) => Ok(index),
             None if kind == 0 => {
-                Err(statement.wrong(format!("an index of the {count} vertices so far"), part))
+                let expected = format!("an index of the {count} vertices so far");
+                let large = if absolute < i64::from(AWAY) { "" } else { ", which is too large" };
+                Err(statement.wrong(expected, format!("{}{large}", printable(part))))
             }
             None => Ok(AWAY),
         }
@@ -382,7 +408,14 @@ impl Reader<'_> {
                 0 => "neither vertices nor faces".into(),
                 _ => format!("{count} vertices and no face of three corners; points are not drawn"),
             };
-            return Err(InputError::new(self.file, None, "f", "at least one face", found).into());
+            let error = match self.odd {
+                Some((line, word)) => {
+                    let found = format!("another word, and in the whole file {found}");
+                    InputError::new(self.file, line, word, "a statement of OBJ files", found)
+                }
+                None => InputError::new(self.file, None, "f", "at least one face", found),
+            };
+            return Err(error.into());
         }
         Ok(self.parsed)
     }
