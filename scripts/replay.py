@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Replays vector packs in cocotb on Icarus Verilog: driven from Python, without the bench in Verilog.
 
-    python scripts/replay.py PACK... [--rtl rtl] [--stall 0] [--wheatstone PROGRAM | --checked]
+    python scripts/replay.py PACK... [--rtl rtl] [--stall 0] [--timeout SECONDS] [--wheatstone PROGRAM | --checked]
 
 A pack is a folder that `wheatstone vectors` wrote; docs/vectors.md says what is in it. It may come from
 anybody: `wheatstone check --copy` checks it and copies it, and the copy is replayed. With --checked the
 pack is replayed as it is, for one that you have made or checked yourself. Every input beat is offered
 until it is taken, every output beat is compared in every bit, on clocks chosen at random. Prints the CRC of every output stream and PASS or FAIL; exit status 0 if all packs pass, 1 if not, 2 if a
-pack or the Verilog cannot be read, 3 if a tool is missing; of a check that did not end well, its own.
+pack or the Verilog cannot be read, 3 if a tool is missing, 4 if it did not end in time, 128 and the number of the
+signal that ended it; of a check that did not end well, its own. Whatever ends it, nothing that it has started and no
+temporary file is left.
 """
 
 import argparse
@@ -15,9 +17,11 @@ import json
 import os
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import zlib
 from pathlib import Path
 
@@ -44,6 +48,8 @@ QUIET = 64  # clocks after the last beat, on which none may come
 HANGS = 2_000  # clocks without a beat
 SHOWN = 10  # differences
 MANY = 1_000  # differences: the module may never end
+LIMIT = 3_600  # seconds
+PATIENCE = 10  # seconds until it is told what is waited for, and then four times as many
 
 
 def program(named):
@@ -251,12 +257,56 @@ def is_ours(line):
     return line.startswith(("crc ", "flag ", "no beat ", "no output beat ", "PASS", "FAIL (")) or ", expected " in line
 
 
+def supervise(limit):
+    """Runs this script again, in a process group and a temporary folder that end with it; returns its exit status."""
+
+    def end(number, _):
+        for ending in signals:
+            signal.signal(ending, signal.SIG_IGN)  # Nothing interrupts what is cleaned now.
+        sys.exit(128 + number)
+
+    signals = [signal.SIGTERM, signal.SIGINT, signal.SIGHUP]
+    signals = [number for number in signals if signal.getsignal(number) != signal.SIG_IGN]
+    with tempfile.TemporaryDirectory() as folder:
+        again = [sys.executable, __file__, "--supervised", *sys.argv[1:]]
+        child = subprocess.Popen(
+            again, stdin=subprocess.DEVNULL, start_new_session=True, env={**os.environ, "TMPDIR": folder}
+        )
+        try:
+            for number in signals:
+                signal.signal(number, end)
+            start, told = time.monotonic(), PATIENCE
+            # Until it is waited for, below, its number is that of its group alone.
+            while not os.waitid(os.P_PID, child.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT):
+                elapsed = time.monotonic() - start
+                if elapsed >= limit:
+                    why = "it was stopped, with all that it had started; where it needs longer, say so with --timeout SECONDS"
+                    stop(UNFINISHED, f"the replay did not end within {limit} s; {why}")
+                if elapsed >= told:
+                    print(f"waiting for the replay for {told} s, until {limit} s", file=sys.stderr, flush=True)
+                    told *= 4
+                time.sleep(0.05)
+        finally:
+            os.killpg(child.pid, signal.SIGKILL)
+            status = child.wait()
+        return status if status >= 0 else 128 - status
+
+
+def seconds(text):
+    """A limit of time."""
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"{text}: expected a number of seconds, 1 or more")
+    return int(text)
+
+
 def main():
     """Replays the packs of the command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("packs", nargs="+", type=Path, metavar="PACK")
     parser.add_argument("--rtl", type=Path, default=Path("rtl"), help="folder of the Verilog")
     parser.add_argument("--stall", type=int, default=1, help="0: offer and take on every clock")
+    parser.add_argument("--timeout", type=seconds, default=LIMIT, metavar="SECONDS", help="limit [default: an hour]")
+    parser.add_argument("--supervised", action="store_true", help=argparse.SUPPRESS)
     trust = parser.add_mutually_exclusive_group()
     trust.add_argument("--wheatstone", metavar="PROGRAM", help="program that checks the packs")
     trust.add_argument("--checked", action="store_true", help="replay the packs as they are")
@@ -267,6 +317,11 @@ def main():
     sources = sorted(rtl.glob("*.v"))
     if not sources:
         stop(BAD_INPUT, f"{args.rtl}: no Verilog there; name its folder with --rtl DIR")
+    for file in [*sources, *sorted(rtl.glob("*.vh"))]:
+        if not file.is_file():
+            stop(BAD_INPUT, f"{file}: expected a regular file; remove it, or name another folder with --rtl DIR")
+    if not args.supervised:
+        sys.exit(supervise(args.timeout))
     wheatstone = None if args.checked else program(args.wheatstone)
     with tempfile.TemporaryDirectory() as copies:
         packs = []

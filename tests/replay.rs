@@ -78,12 +78,12 @@ fn every_way_says_fail_on_wrong_verilog() {
 }
 
 /// Exit status and output of the script for a command line; with Python's own packages alone, or all.
-fn script(own: bool, arguments: &[&Path]) -> (Option<i32>, String) {
+fn script(own: bool, temporary: &Path, arguments: &[&Path]) -> (Option<i32>, String) {
     let mut python = Command::new(COCOTB.find().expect("cocotb").program.with_file_name("python3"));
     // Without site packages, among which cocotb is.
     python.args(own.then_some("-S")).arg(workspace().join("scripts/replay.py")).args(arguments);
     // The program checks packs in tests of its own.
-    python.arg("--checked");
+    python.arg("--checked").env("TMPDIR", temporary);
     let output = python.current_dir(workspace()).output().expect("Python");
     let text = [output.stdout, output.stderr].concat();
     (output.status.code(), String::from_utf8_lossy(&text).trim().to_owned())
@@ -91,11 +91,11 @@ fn script(own: bool, arguments: &[&Path]) -> (Option<i32>, String) {
 
 #[test]
 fn the_script_tells_what_it_cannot_replay_in_a_line() {
-    let folder = folder();
+    let (temporary, folder) = (folder(), folder());
     let pack = pack(Target::Blend, &Config::PAPER, 20, folder.path()).folder;
-    assert_eq!(script(false, &[&pack]).0, Some(0));
+    assert_eq!(script(false, temporary.path(), &[&pack]).0, Some(0));
     let told = |own, status, what: &str, arguments: &[&Path]| {
-        let (found, text) = script(own, arguments);
+        let (found, text) = script(own, temporary.path(), arguments);
         assert_eq!(found, Some(status), "{text}");
         assert!(text.starts_with("error: ") && text.lines().count() == 1, "{text}");
         assert!(text.contains(what), "no “{what}” in: {text}");
@@ -103,6 +103,20 @@ fn the_script_tells_what_it_cannot_replay_in_a_line() {
     told(true, 3, "run scripts/setup", &[&pack]);
     told(false, 2, "no Verilog there", &[&pack, Path::new("--rtl"), folder.path()]);
     told(false, 2, "wheatstone vectors", &[&folder.path().join("none")]);
+    // Neither a file without an end nor a module that stops the clock holds it up, or leaves anything.
+    let (pipe, endless) = (copy_of_rtl(), copy_of_rtl());
+    let mkfifo = Command::new("mkfifo").arg(pipe.path().join("x.v")).status();
+    assert!(mkfifo.expect("mkfifo").success());
+    told(false, 2, "expected a regular file", &[&pack, Path::new("--rtl"), pipe.path()]);
+    let file = endless.path().join("sam_blend.v");
+    let endless_loop = "initial begin #100; forever begin end end\n`ifdef FORMAL";
+    let text = std::fs::read_to_string(&file).expect("Verilog");
+    std::fs::write(&file, text.replacen("`ifdef FORMAL", endless_loop, 1)).expect("written");
+    let rtl = [Path::new("--rtl"), endless.path()];
+    let limit = [Path::new("--timeout"), Path::new("2")];
+    told(false, 4, "did not end within 2 s", &[&[pack.as_path()], &rtl[..], &limit].concat());
+    let left = std::fs::read_dir(temporary.path()).expect("a folder").count();
+    assert_eq!(left, 0, "temporary files are left");
     let manifest = pack.join(pack::MANIFEST);
     let sound = std::fs::read_to_string(&manifest).expect("a manifest");
     for (find, replace, what) in [

@@ -8,7 +8,7 @@ use crate::tools::{self, Found, Tool, ToolError, COCOTB, ICARUS, VVP};
 use std::fmt::Write;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{self, Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -133,6 +133,8 @@ impl Replayer {
 /// Name of the copy of a pack in the folder of a run, and of the copies of its Verilog.
 const PACK: &str = "pack";
 const VERILOG: &str = "rtl";
+/// Folder of the temporary files of its tools.
+const TEMPORARY: &str = "tmp";
 /// File that Icarus compiles to.
 const COMPILED: &str = "replay.vvp";
 
@@ -196,7 +198,8 @@ impl Run<'_> {
         self.verilog()?;
         let start = Instant::now();
         let mut command = Command::new(program.with_file_name("python3"));
-        command.args(["replay.py", "--checked", PACK, "--rtl", VERILOG]);
+        // It need not look after what it starts: that is done here.
+        command.args(["replay.py", "--supervised", "--checked", PACK, "--rtl", VERILOG]);
         let output = self.process(&COCOTB, &mut command)?;
         self.verdict(&COCOTB, &output, start)
     }
@@ -218,6 +221,11 @@ impl Run<'_> {
 
     fn process(&self, tool: &'static Tool, command: &mut Command) -> Result<Output, ReplayError> {
         let pack = self.pack.folder.display().to_string();
+        // What it leaves there when it is killed goes with the folder of the run.
+        let temporary = path::absolute(self.folder.join(TEMPORARY))
+            .and_then(|folder| fs::create_dir_all(&folder).map(|()| folder))
+            .map_err(ReplayError::at(self.folder))?;
+        command.env("TMPDIR", temporary);
         Ok(Process::new(tool.program, command.current_dir(self.folder)).on(pack).run()?)
     }
 
@@ -247,8 +255,8 @@ impl Run<'_> {
     }
 
     fn failed(&self, tool: &'static Tool, said: &str) -> ReplayError {
-        if let Some(source) = room::lacking(&self.pack.folder, said) {
-            return ReplayError::at(&self.pack.folder)(source);
+        if let Some(source) = room::lacking(self.folder, said) {
+            return ReplayError::at(&self.replayer.synthesiser.cache)(source);
         }
         let said = said.lines().take(8).collect::<Vec<_>>().join("\n");
         let said = sources::named_from(&self.replayer.synthesiser.rtl, &said);
