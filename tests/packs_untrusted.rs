@@ -248,10 +248,36 @@ fn the_rig_file_of_a_scene_is_one() {
             "scene.rig_file.light.colour: [1.0, -1.0, 0.0], expected",
         ),
         (r#"{"lamp":1}"#, "scene.rig_file.lamp"),
-        ("{}\u{1b}", "scene.rig_file: other characters, expected printable ASCII"),
+        ("{}\u{1b}", "scene.rig_file: other characters"),
+        ("{ }", "scene.rig_file: other characters, or blanks between the parts"),
+        (r#"{"eye_separation":-5}"#, "scene.rig_file.eye_separation: -5, expected a number"),
+        (r#"{"near":-1,"far":-2}"#, "scene.rig_file.near: -1, expected a number"),
+        (r#"{"eye_separation":50}"#, "scene.rig.eye_separation: "),
     ] {
         attack.manifest(|m| m["scene"]["rig_file"] = json!(text));
         attack.is_refused(&[said]);
+    }
+    attack.manifest(|m| m["scene"]["rig_file"] = json!(scene.rig_file));
+    pack::check(&attack.pack).expect("sound again");
+    let sound = fs::read(attack.pack.join(pack::MANIFEST)).expect("a manifest");
+    // Each alone is a value that there may be.
+    for (at, value, said) in [
+        ("/scene/rig/1/value", json!("-1"), "scene.rig.eye_separation: -1, expected"),
+        ("/scene/rig/2/value", json!("inf"), "scene.rig.viewing_distance: inf, expected"),
+        ("/scene/rig/6/value", json!("7"), "scene.rig.eye_distance: 7, expected"),
+        ("/scene/projection", json!("piecewise"), "scene.r"),
+        ("/scene/ranges/0/0", json!("9"), "scene.ranges[0]: 9, "),
+        ("/scene/width", json!(1), ""),
+        ("/scene/polygons_of", json!(scene.polygons), "scene.beats_of: "),
+        ("/scene/file_blake3", Value::Null, "scene.file_blake3: nothing, expected"),
+        ("/seed", json!(5), "seed: 5, expected 0"),
+        ("/frames/open/0/1", json!(1), "frames.open: "),
+        ("/frames/height", json!(1), "frames."),
+    ] {
+        attack.manifest(|m| *m.pointer_mut(at).unwrap_or(&mut Value::Null) = value);
+        assert!(pack::check(&attack.pack).is_err(), "{at}");
+        attack.is_refused(&[said]);
+        fs::write(attack.pack.join(pack::MANIFEST), &sound).expect("written");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Projections in rig files: what they say, and what makes no sense.
 
 use wheatstone_golden::projection::{Asymptotic, Device, Kind, Projection};
-use wheatstone_golden::scene::{open, open_projected, Rig};
+use wheatstone_golden::scene::{open, open_projected, Rig, RigFile};
 use wheatstone_tests::folder;
 
 const SIZE: [u32; 2] = [240, 180];
@@ -48,7 +48,7 @@ const WRONG: &[(&str, &[&str])] = &[
     ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": [\n{\"near\": 50, \"far\": 60, \"min_distance\": 55, \"max_distance\": 60},\n{\"near\": 59, \"far\": 70, \"min_distance\": 60, \"max_distance\": 65}]}}", &["rig.json:3: piecewise.partitions[1].near: expected at least 60, where partition 0 ends", "found 59"]),
     ("{\"projection\": \"translate\", \"translate\": {\"eye_distance\": 2.5, \"viewing_distance\": 18, \"dot_pitch\": 1},\n\"eye_separation\": 6.5}", &["rig.json:2: eye_separation: expected translate or this, not both", "found 6.5 beside translate"]),
     ("{\"translate\": {\"eye_distance\": 2.5, \"dot_pitch\": 1,\n\"viewing_distance\": 18}, \n\"viewing_distance\": 60}", &["viewing_distance: expected translate or this, not both", "found 60 beside translate"]),
-    ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": []}}", &["rig.json:1: piecewise.partitions: expected at least one partition"]),
+    ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": []}}", &["rig.json:1: piecewise.partitions: expected 1 to 1000 partitions"]),
     ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": [{\"near\": 70,\n\"far\": 70, \"min_distance\": 55, \"max_distance\": 60}]}}", &["rig.json:2: piecewise.partitions[0].far: expected more than near, which is 70, found 70"]),
     ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": [{\"near\": 50, \"far\": 60, \"min_distance\": 55,\n\"max_distance\": 54}]}}", &["rig.json:2: piecewise.partitions[0].max_distance: expected at least min_distance, which is 55, found 54"]),
     ("{\"projection\": \"piecewise\", \"piecewise\": {\"partitions\": [{\"near\": 50, \"far\": 60,\n\"max_distance\": 54}]}}", &["rig.json:2: piecewise.partitions[0].min_distance: expected a value, found nothing"]),
@@ -87,6 +87,25 @@ fn senseless_rigs_give_one_clear_error() {
         }
         assert_eq!(error.lines().count(), 1, "{error}");
     }
+    // What a vector pack has no room for.
+    let partition = |n: usize| {
+        let [near, far] = [n + 1, n + 2];
+        format!("{{\"near\": {near}, \"far\": {far}, \"min_distance\": {near}, \"max_distance\": {far}}}")
+    };
+    let partitions = |count: usize| {
+        let list = (0..count).map(partition).collect::<Vec<_>>().join(", ");
+        format!("{{\"projection\": \"piecewise\", \"piecewise\": {{\"partitions\": [{list}]}}}}")
+    };
+    let read = |text: String| RigFile::read(std::path::Path::new("rig.json"), text).map(drop);
+    let told = |text: String| read(text).map_err(|error| error.to_string());
+    assert_eq!(told(partitions(1_000)), Ok(()));
+    let expected =
+        "rig.json:1: piecewise.partitions: expected 1 to 1000 partitions, found length 1001";
+    assert_eq!(told(partitions(1_001)), Err(expected.into()));
+    let padded = |bytes: usize| format!("{{{}}}", " ".repeat(bytes - 2));
+    assert_eq!(told(padded(256 << 10)), Ok(()));
+    let expected = "rig.json: file: expected at most 262144 bytes, found 262145 bytes";
+    assert_eq!(told(padded((256 << 10) + 1)), Err(expected.into()));
     // Without a rig file it is the scene that does not fit.
     let flat = folder.path().join("flat.json");
     let scene = r#"{"format": "stereo-scene/1", "width": 8, "height": 8, "pixels_per_unit": 1,

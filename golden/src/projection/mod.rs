@@ -23,7 +23,7 @@ pub use error::{RigError, COORDINATE_LIMIT};
 pub use field_of_view::{Clipping, FieldOfView, Screen};
 pub use map::{Device, DistanceMap, Viewer};
 pub use matrix::{multiply, transform, Matrix, ProjectionMatrix};
-pub use parameters::{Asymptotic, Partition, Piecewise};
+pub use parameters::{Asymptotic, Partition, Piecewise, PARTITIONS_LIMIT};
 pub use viewing::Viewing;
 
 use serde::de::Error;

@@ -38,15 +38,19 @@ pub struct Piecewise {
     pub eye_distance: Option<f64>,
     /// The partitions, the nearest first; none stands for [`Piecewise::four`]. Between and beside
     /// them nothing is drawn.
-    #[serde(deserialize_with = "at_least_one")]
+    #[serde(deserialize_with = "bounded")]
     pub partitions: Vec<Partition>,
 }
 
+/// Most partitions of a projection.
+pub const PARTITIONS_LIMIT: usize = 1_000;
+
 /// An empty list would draw nothing; what is not there takes the default.
-fn at_least_one<'de, D: Deserializer<'de>>(list: D) -> Result<Vec<Partition>, D::Error> {
+fn bounded<'de, D: Deserializer<'de>>(list: D) -> Result<Vec<Partition>, D::Error> {
     let partitions = Vec::deserialize(list)?;
-    if partitions.is_empty() {
-        return Err(D::Error::invalid_length(0, &"at least one partition"));
+    if !(1..=PARTITIONS_LIMIT).contains(&partitions.len()) {
+        let expected = format!("1 to {PARTITIONS_LIMIT} partitions");
+        return Err(D::Error::invalid_length(partitions.len(), &&*expected));
     }
     Ok(partitions)
 }

@@ -1,6 +1,6 @@
 //! Rig files: where the eyes are, how large the screen is, how a mesh is placed and lit.
 //!
-//! A rig file is a JSON object. All fields are optional and replace those of the scene; others
+//! A rig file is a JSON object of at most 256 KiB. All fields are optional and replace those of the scene; others
 //! than these are refused:
 //!
 //! | field | value | default for meshes |
@@ -40,7 +40,7 @@
 //! All but the first are in the unit to which `pixels_per_unit` refers, which need not be the scene's.
 //!
 //! `piecewise`: `screen_distance` and `eye_distance` as above; `partitions` is a list of objects, the
-//! nearest first, which may not overlap: what is at `near` to `far` in the scene is seen at
+//! nearest first and 1,000 at most, which may not overlap: what is at `near` to `far` in the scene is seen at
 //! `min_distance` to `max_distance`, all four, equal ones for a flat partition. What is in none is not
 //! drawn. Default, in viewing distances and screen distances: 0.5 to 1 at 0.75 to 1, 1 to 1.25 at
 //! 1, 1.25 to 2 at 1 to 1.5, 2 to `far` (100) at 1.5.
@@ -60,6 +60,10 @@ use super::Scene;
 use crate::projection::{check_length, shown, Asymptotic, Device, Kind, Piecewise, Projection};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
+
+/// Largest rig file, in bytes: some times what the most partitions take, and little enough for a pack to have it in
+/// its manifest.
+pub const RIG_LIMIT: usize = 256 << 10;
 
 /// A rig file as it stands.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -104,6 +108,11 @@ impl RigFile {
 
     /// Reads a rig file's text; `file` is its name in messages.
     pub fn read(file: &Path, text: String) -> Result<RigFile, SceneError> {
+        if text.len() > RIG_LIMIT {
+            let (expected, found) =
+                (format!("at most {RIG_LIMIT} bytes"), format!("{} bytes", text.len()));
+            return Err(InputError::new(file, None, "file", expected, found).into());
+        }
         let rig: RigFile = parse(file, &text)?;
         let rig = RigFile { file: file.to_owned(), text, ..rig };
         rig.check()?;

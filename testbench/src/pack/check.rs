@@ -2,7 +2,7 @@
 
 use super::bench::BENCH;
 use super::folder::Folder;
-use super::text::{fault, is_hash, is_plain};
+use super::text::{fault, is_hash};
 use super::*;
 use crate::settings::RUN_PARAMETERS;
 use std::fs;
@@ -12,13 +12,9 @@ use wheatstone_golden::config::{Config, PARAMETERS};
 use wheatstone_golden::files::{self, Scratch, Tidy};
 use wheatstone_golden::formats::{Formats, DEPTH_MAX};
 use wheatstone_golden::interface::{Field, Interface, Stream};
-use wheatstone_golden::projection::Kind;
-use wheatstone_golden::scene::{InputError, RigFile, SceneError};
+use wheatstone_golden::projection::{Kind, PARTITIONS_LIMIT};
 use wheatstone_golden::targets::Target;
 use wheatstone_golden::text::decode;
-
-/// Most ranges of distances of a projection.
-const RANGES_LIMIT: u64 = 1_000;
 
 /// A pack that was found sound.
 #[derive(Clone, Debug)]
@@ -282,10 +278,7 @@ impl Checker<'_> {
         for Setting { name, value } in &scene.rig {
             self.number(&format!("scene.rig.{name}"), value)?;
         }
-        if let Some(text) = &scene.rig_file {
-            self.rig_file(text)?;
-        }
-        self.within("scene.ranges", scene.ranges.len() as u64, 1, RANGES_LIMIT)?;
+        self.within("scene.ranges", scene.ranges.len() as u64, 1, PARTITIONS_LIMIT as u64)?;
         scene.ranges.iter().flatten().try_for_each(|n| self.number("scene.ranges", n))?;
         let run = RUN_PARAMETERS.iter().filter(|p| p.name != "latency");
         let mut known = vec![("cull", vec!["none", "back"]), ("wire", vec!["off", "on"])];
@@ -298,21 +291,6 @@ impl Checker<'_> {
                 self.same("scene.beats", scene.beats, port.beats)
             }
             _ => Ok(()),
-        }
-    }
-
-    /// A rig file that a scene can be drawn with.
-    fn rig_file(&self, text: &str) -> Result<(), PackError> {
-        let field = "scene.rig_file";
-        if !text.chars().all(is_plain) {
-            return Err(self.fault(field, "other characters", "printable ASCII characters"));
-        }
-        match RigFile::read(&self.path, text.into()) {
-            Ok(_) => Ok(()),
-            Err(SceneError::Input(InputError { field: inner, expected, found, .. })) => {
-                Err(self.fault(&format!("{field}.{inner}"), found, expected))
-            }
-            Err(error) => Err(self.fault(field, error, "the text of a rig file")),
         }
     }
 
@@ -461,6 +439,8 @@ fn check_one(folder: &Path, copy: Option<&Path>) -> Result<Checked, PackError> {
             return Err(checker.fault("stimulus", found, "random, directed, or scene with a scene"))
         }
     }
+    consistent::check(&checker.path, &manifest, target, &config)
+        .map_err(|wrong| checker.fault(&wrong.field, wrong.found, wrong.expected))?;
     checker.hash("rtl_blake3", &manifest.rtl_blake3)?;
     let found = manifest.ports.iter().map(|p| p.name.as_str());
     checker.same_list("ports", found, interface.streams.iter().map(|s| s.name))?;

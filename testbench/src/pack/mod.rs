@@ -11,6 +11,7 @@
 mod beats;
 mod bench;
 mod check;
+mod consistent;
 mod error;
 mod folder;
 mod manifest;

@@ -66,22 +66,7 @@ impl SceneOrigin {
     pub fn new(drawn: &Drawn, head: &Head) -> SceneOrigin {
         let Drawn { rig, job, settings, .. } = drawn;
         let setting = |(name, value): (&str, String)| Setting { name: name.into(), value };
-        let viewer = rig.viewer();
-        let numbers = [
-            rig.pixels_per_unit,
-            rig.eye_separation,
-            rig.viewing_distance,
-            rig.near(),
-            rig.far(),
-            rig.head_tilt,
-            viewer.eye_distance,
-            viewer.screen_distance,
-        ];
-        let numbers = RIG.into_iter().zip(numbers.map(told));
-        let ranges = rig.ranges().into_iter().map(|range| {
-            let [from, to] = range.perceived();
-            [range.near, range.far, from, to].map(told)
-        });
+        let numbers = RIG.into_iter().zip(numbers(rig));
         let cull = if drawn.cull { "back" } else { "none" };
         let wire = if drawn.wire { "on" } else { "off" };
         let options = [("cull", cull), ("wire", wire)].into_iter().chain(settings.choices());
@@ -96,7 +81,7 @@ impl SceneOrigin {
             projection: rig.projection.kind().name().into(),
             rig: numbers.map(setting).collect(),
             rig_file: drawn.rig_file.map(compact),
-            ranges: ranges.collect(),
+            ranges: ranges(rig),
             options: options.map(setting).collect(),
             polygons,
             polygons_of,
@@ -106,8 +91,33 @@ impl SceneOrigin {
     }
 }
 
+/// The numbers of a rig, as [`RIG`] names them.
+pub(super) fn numbers(rig: &Rig) -> [String; 8] {
+    let viewer = rig.viewer();
+    let numbers = [
+        rig.pixels_per_unit,
+        rig.eye_separation,
+        rig.viewing_distance,
+        rig.near(),
+        rig.far(),
+        rig.head_tilt,
+        viewer.eye_distance,
+        viewer.screen_distance,
+    ];
+    numbers.map(told)
+}
+
+/// Ranges of distances of a rig that are drawn: from and to in the scene, perceived from and to.
+pub(super) fn ranges(rig: &Rig) -> Vec<[String; 4]> {
+    let ranges = rig.ranges().into_iter().map(|range| {
+        let [from, to] = range.perceived();
+        [range.near, range.far, from, to].map(told)
+    });
+    ranges.collect()
+}
+
 /// A JSON text without the blanks between its parts; no digit of it changes.
-fn compact(text: &str) -> String {
+pub(super) fn compact(text: &str) -> String {
     let (mut within, mut escaped) = (false, false);
     let mut is_part = |c: &char| {
         let is_part = within || !c.is_ascii_whitespace();
