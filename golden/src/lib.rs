@@ -37,6 +37,7 @@ pub mod pipeline;
 pub mod primary;
 #[cfg(feature = "std")]
 pub mod progress;
+#[cfg(feature = "std")]
 pub mod projection;
 #[cfg(feature = "std")]
 pub mod quality;
