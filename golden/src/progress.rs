@@ -43,6 +43,19 @@ impl Stage {
         Stage::begin(what.into(), None)
     }
 
+    /// Work of so many parts, if that is known; [`Stage::done`] notes how many are done. `unit` is the word for several.
+    pub fn counted(what: impl Into<String>, unit: &'static str, of: Option<usize>) -> Stage {
+        Stage::begin(what.into(), Some(Count { unit, done: AtomicU64::new(0), of }))
+    }
+
+    /// Notes the number of parts that are done.
+    #[inline]
+    pub fn done(&self, parts: u64) {
+        if let Some(count) = &self.0.count {
+            count.done.store(parts, Ordering::Relaxed);
+        }
+    }
+
     fn begin(what: String, count: Option<Count>) -> Stage {
         let work = Arc::new(Work { what, count });
         works().push(Arc::clone(&work));
@@ -66,8 +79,7 @@ pub fn over<I: IntoIterator>(
     let items = items.into_iter();
     let (least, most) = items.size_hint();
     let of = most.filter(|&most| most == least);
-    let count = Count { unit, done: AtomicU64::new(0), of };
-    Over { items, begun: 0, stage: Stage::begin(what.into(), Some(count)) }
+    Over { items, begun: 0, stage: Stage::counted(what, unit, of) }
 }
 
 /// Items of which it is noted how many are done, see [`over`].
@@ -83,9 +95,7 @@ impl<I: Iterator> Iterator for Over<I> {
 
     #[inline]
     fn next(&mut self) -> Option<I::Item> {
-        if let Some(count) = &self.stage.0.count {
-            count.done.store(self.begun, Ordering::Relaxed);
-        }
+        self.stage.done(self.begun);
         self.begun += 1;
         self.items.next()
     }

@@ -127,8 +127,9 @@ impl Job<'_> {
         counts
     }
 
-    /// The polygons as they are drawn; it is noted how many of them are done.
-    fn pieces(&self, what: &str) -> impl Iterator<Item = Cow<'_, Polygon>> {
+    /// The polygons as they are drawn: one with more than three corners that snapping has made concave
+    /// in either view is given in triangles. It is noted how many of them are done; `what` is done with them.
+    pub fn pieces(&self, what: &str) -> impl Iterator<Item = Cow<'_, Polygon>> {
         over(what, "polygons", self.polygons).flat_map(in_pieces)
     }
 

@@ -12,7 +12,6 @@ mod kept;
 mod limits;
 mod memory;
 mod output;
-mod patience;
 mod process;
 mod usage;
 
@@ -21,6 +20,5 @@ pub use error::{Call, ProcessError};
 pub use limits::{limit, on_tell, set, set_limit, tell, ANSWER, LIMIT, PATIENCE};
 pub use memory::limit_memory;
 pub use output::Output;
-pub use patience::Patience;
 pub use process::{Process, KEPT};
 pub use usage::{adopt_orphans, end_orphans, of_thread, Activity};

@@ -130,7 +130,7 @@ fn compare_golden(library: &Library) -> Result<f64, Failure> {
 
         let stalls = Stalls::NONE;
         let setting = Setting { library, seed: 1, stalls, latency: Some(4), trace: None };
-        let ran = run_scene(&setting, Target::Hybrid, &job, |_| ())?;
+        let ran = run_scene(&setting, Target::Hybrid, &job)?;
         assert!(ran.ran.passed());
         verilator = verilator.min(ran.simulation.as_secs_f64());
     }

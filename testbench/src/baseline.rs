@@ -150,7 +150,7 @@ impl Baseline {
 
     /// Draws a job with both.
     pub fn measure(&self, name: &str, job: &Job) -> Result<Row, BaselineError> {
-        let scene = run_scene(&setting(&self.stereo), Target::Stereo, job, |_| ())?;
+        let scene = run_scene(&setting(&self.stereo), Target::Stereo, job)?;
         let stereo = clocks(&scene.ran, Target::Stereo, name)?;
         let mut monocular_clocks = [0; 2];
         for (eye, clocks_of) in Eye::BOTH.into_iter().zip(&mut monocular_clocks) {

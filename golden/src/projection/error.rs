@@ -20,11 +20,6 @@ impl RigError {
     pub fn new(field: impl Into<String>, expected: impl Into<String>, found: f64) -> RigError {
         RigError { field: field.into(), expected: expected.into(), found }
     }
-
-    /// The value found, with an exponent where it would be long without.
-    pub fn found(&self) -> String {
-        shown(self.found)
-    }
 }
 
 /// A number with an exponent where it would be long without.

@@ -11,10 +11,9 @@ use super::run::{run_case, run_scene, SceneRan, Setting};
 use super::work::RANDOM;
 use crate::cases::Case;
 use crate::{Pattern, Stalls};
-use std::cell::RefCell;
 use std::time::Instant;
 use wheatstone_golden::formats::Eye;
-use wheatstone_process::Patience;
+use wheatstone_golden::progress::Stage;
 
 /// Last cycle of waveforms that are written of a case that passed.
 const HEAD: u64 = 2_000;
@@ -61,7 +60,9 @@ pub(super) fn directed(ground: &Ground, case: &Case) -> Result<Entry, Regression
 pub(super) fn random(ground: &Ground) -> Result<Entry, RegressionError> {
     let (plan, target) = (ground.plan, ground.target);
     let mut entry = Entry::new(target, RANDOM);
-    let mut patience = Patience::new();
+    let asked = plan.beats.unwrap_or(default_beats(target));
+    let of = usize::try_from(asked).ok();
+    let stage = Stage::counted(format!("{} random", target.name()), "beats", of);
     for Batch { seed, size, case } in batches(target, &plan.settings.config, plan.seed, plan.beats)
     {
         let setting = ground.setting(seed, Stalls::of_seed(seed));
@@ -69,9 +70,7 @@ pub(super) fn random(ground: &Ground) -> Result<Entry, RegressionError> {
         if !entry.passed() {
             break;
         }
-        let asked = plan.beats.unwrap_or(default_beats(target));
-        patience
-            .tell(|| format!("{} random: {} of {asked} beats so far", target.name(), entry.beats));
+        stage.done(entry.beats);
     }
     Ok(entry)
 }
@@ -90,13 +89,7 @@ pub(super) fn draw(ground: &Ground, scene: &NamedScene) -> Result<Entry, Regress
     let latency = plan.settings.latency;
     for (stalls, latency) in [(Stalls::NONE, steady), (stalled, latency), (full, latency)] {
         let setting = Setting { latency, ..ground.setting(plan.seed, stalls) };
-        let patience = RefCell::new(Patience::new());
-        let told = |drawn| {
-            let (target, all) = (target.name(), scene.job.polygons.len());
-            let text = || format!("{target} {}: {drawn} of {all} polygons so far", scene.name);
-            patience.borrow_mut().tell(text);
-        };
-        let run = |setting: &Setting| run_scene(setting, target, &scene.job, told);
+        let run = |setting: &Setting| run_scene(setting, target, &scene.job);
         let SceneRan { ran, drawn, frames, simulation } = run(&setting)?;
         entry.add(&ran, drawn.beats(), simulation);
         if !ran.passed() {

@@ -9,7 +9,7 @@ use wheatstone_golden::frame::Frames;
 use wheatstone_golden::interface::{Direction, Interface, Table};
 use wheatstone_golden::primary::{Counts as Drawn, Primary};
 use wheatstone_golden::record::{Recording, Tape};
-use wheatstone_golden::stereo::{pieces, Job as Scene};
+use wheatstone_golden::stereo::Job as Scene;
 use wheatstone_golden::targets::Target;
 
 /// Beats after which a scene goes on in a new part, so that memory stays bounded.
@@ -201,7 +201,6 @@ pub fn run_scene(
     setting: &Setting,
     target: Target,
     scene: &Scene,
-    mut progress: impl FnMut(usize),
 ) -> Result<SceneRan, RegressionError> {
     let minimal = target == Target::Minimal;
     let scene = &target.job(scene);
@@ -209,13 +208,12 @@ pub fn run_scene(
     let mut memory = runner.memory(scene.frames(minimal));
     let mut primary = Primary::new(scene.planner(minimal), scene.textures, scene.lookup);
     let mut tape = Tape::new(scene, minimal, false);
-    let mut polygons = pieces(scene.polygons).peekable();
-    let mut drawn = 0;
+    let what = format!("drawing with {}", target.name());
+    let mut polygons = scene.pieces(&what).peekable();
     let mut simulation = Duration::ZERO;
     loop {
         while let Some(polygon) = polygons.next_if(|_| tape.len() < PART) {
             primary.draw(&polygon, tape.sink());
-            drawn += 1;
         }
         let done = polygons.peek().is_none();
         let recording = tape.take();
@@ -224,7 +222,6 @@ pub fn run_scene(
         let start = Instant::now();
         let last = runner.run(&case, Some(&mut memory))?;
         simulation += start.elapsed();
-        progress(drawn);
         let failed = !matches!(last, Outcome::Passed(_)) || memory.stale.is_some();
         if failed || done {
             let mut faults: Vec<MemoryFault> = memory.stale.take().into_iter().collect();
