@@ -54,6 +54,14 @@ fn options_that_make_no_difference_are_errors() {
             "vectors mono --scene room --param displays=1",
             "--param displays: makes no difference to mono",
         ),
+        (
+            "vectors traversal primary --scene room --param displays=1",
+            "--param displays: makes no difference to traversal, primary",
+        ),
+        (
+            "vectors primary mono --scene room --param sampling=nearest",
+            "--param sampling: makes no difference to primary, mono",
+        ),
         ("vectors hybrid --beats 1000001", "--beats: a pack has 1000000 at most"),
         ("vectors hybrid --beats 4294967296", "--beats: a pack has 1000000 at most"),
         ("vectors hybrid --case x --scene ramp", "cannot be used with"),

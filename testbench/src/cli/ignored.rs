@@ -35,8 +35,8 @@ impl Common {
     }
 
     /// Refuses parameters that make no difference to any of the targets: build parameters that change none of
-    /// them, where a scene is not made other polygons by them, textures that none shows, and the latency of reads
-    /// where nothing is read.
+    /// them, where a scene is not made other polygons by them, textures that none shows, the latency of reads
+    /// where nothing is read, and the displays and the sampling of secondaries where there are none.
     pub(super) fn refuse_foreign(&self, targets: &[Target]) -> Result<(), Failure> {
         let config = self.settings()?.config;
         let has_scene = self.view.scene.is_some();
@@ -51,7 +51,13 @@ impl Common {
             None if name == "latency" => targets.iter().all(|t| {
                 t.interface(&config).streams.iter().all(|stream| stream.answers.is_none())
             }),
-            None => name == "displays" && targets.iter().all(|t| *t == Target::Mono),
+            // Nothing is derived there, and each eye's pixels go to the eye's own stream.
+            None => {
+                ["displays", "sampling"].contains(&name)
+                    && targets
+                        .iter()
+                        .all(|t| matches!(t, Target::Traversal | Target::Primary | Target::Mono))
+            }
         };
         refuse_parameters(&self.parameters, foreign, &listed(targets))
     }
