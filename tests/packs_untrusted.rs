@@ -7,9 +7,10 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use wheatstone_golden::config::Config;
+use wheatstone_golden::interface::Table;
 use wheatstone_golden::targets::Target;
 use wheatstone_testbench::cases::{self, Case};
-use wheatstone_testbench::pack::{self, Manifest, Origin};
+use wheatstone_testbench::pack::{self, Manifest, Origin, PackError};
 use wheatstone_testbench::replay::{Replayer, Way};
 use wheatstone_testbench::synth::Synthesiser;
 use wheatstone_tests::*;
@@ -413,4 +414,14 @@ fn nothing_but_a_pack_is_replaced() {
     refused();
     assert_eq!(fs::read_to_string(&place).expect("kept"), "notes");
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2);
+}
+
+#[test]
+fn a_pack_that_is_not_written_leaves_no_new_folder() {
+    let folder = folder();
+    let out = folder.path().join("new/packs");
+    let vain = Case { outputs: vec![Table::default()], ..filter(1) };
+    let written = pack::write(&vain, &Origin::random(1), &"0".repeat(64), &out);
+    assert!(matches!(written, Err(PackError::Vain { .. })), "{written:?}");
+    assert!(!folder.path().join("new").exists());
 }

@@ -7,7 +7,7 @@ use crate::cases::Case;
 use std::fs;
 use std::path::{Path, PathBuf};
 use wheatstone_golden::config::PARAMETERS;
-use wheatstone_golden::files::Scratch;
+use wheatstone_golden::files::{Scratch, Tidy};
 use wheatstone_golden::formats::Eye;
 use wheatstone_golden::interface::{Direction, Stream, Table};
 
@@ -33,6 +33,8 @@ pub fn write(
     rtl_blake3: &str,
     out: &Path,
 ) -> Result<PackInfo, PackError> {
+    // Before what is in it: a new folder that stays empty goes last.
+    let _tidy = Tidy::new(out);
     fs::create_dir_all(out).map_err(PackError::at(out))?;
     let temporary = Scratch::new(out).map_err(PackError::at(out))?;
     let manifest = fill(case, origin, rtl_blake3, temporary.path())?;
