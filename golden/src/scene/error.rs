@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 pub const SIZE_LIMIT: u32 = 2048;
 /// Most triangles and faces of a scene: id pictures hold one more than an id in 24 bits.
 pub const ID_LIMIT: usize = (1 << 24) - 1;
-/// Most corners of polygons and points of lines in a file, so that what is made of them has room in 2.5 GB, whatever
+/// Most corners of polygons and points of lines in a file, so that what is made of them has room in 2 GB, whatever
 /// attributes they have.
-pub const CORNER_LIMIT: usize = 5_000_000;
+pub const CORNER_LIMIT: usize = 4_000_000;
 /// Most lines of a file or a wire frame: one takes a kilobyte.
 pub const LINE_LIMIT: usize = 1 << 20;
 /// Largest file of a scene, in bytes: some ten times what the largest mesh takes that is drawn in
